@@ -1,0 +1,104 @@
+//! What was written, before anything is known of its meaning.
+
+use crate::source::Span;
+use crate::symbol::Symbol;
+use crate::types::Real;
+
+/// A name and its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The interned text.
+    pub symbol: Symbol,
+    /// The place.
+    pub span: Span,
+}
+
+/// A number as written, sign included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// Digits.
+    Int(i32),
+    /// With a dot or an exponent.
+    Real(Real),
+}
+
+/// One statement: `[number] [outputs] = code ( inputs : parameters )`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statement {
+    /// The block number, if written.
+    pub number: Option<(u32, Span)>,
+    /// The outputs.
+    pub outputs: Vec<Output>,
+    /// The function code.
+    pub code: Name,
+    /// The input list. An empty list has one empty item.
+    pub inputs: Vec<Item>,
+    /// The parameter list. An empty list has one empty item.
+    pub params: Vec<Item>,
+    /// Where the `:` stands, or `)` if there is none.
+    pub colon: Span,
+    /// From the first token to the closing parenthesis.
+    pub span: Span,
+}
+
+/// One output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Output {
+    /// A variable.
+    Name(Name),
+    /// `_`: discarded.
+    Discard(Span),
+}
+
+impl Output {
+    /// Its place.
+    pub fn span(self) -> Span {
+        match self {
+            Output::Name(name) => name.span,
+            Output::Discard(span) => span,
+        }
+    }
+}
+
+/// One place of an input or parameter list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// `K = ..`
+    pub label: Option<Name>,
+    /// What is in it.
+    pub value: Operand,
+    /// The place; for an empty one, where the comma, colon or parenthesis after it stands.
+    pub span: Span,
+}
+
+/// What stands in a place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operand {
+    /// Nothing.
+    Empty,
+    /// A variable, an enumeration's name, a constant of a composite.
+    Name(Name),
+    /// `a[1]`, `m[1,2]`
+    Element(Name, Vec<(i32, Span)>),
+    /// `TAG.output`
+    Member(Name, Name),
+    /// A number.
+    Number(Number),
+    /// A string: a parameter file or a text.
+    Text(Span),
+}
+
+/// A line of a `.cfg` file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Line {
+    /// A block.
+    Block(Box<Statement>),
+    /// `INITIALIZE`
+    Initialize(Span),
+    /// `PLANT`
+    Plant(Span),
+    /// `CONTROL [n [offset]]`
+    Control(Span, Vec<(u32, Span)>),
+    /// `END`
+    End(Span),
+}

@@ -1,0 +1,313 @@
+//! A function code's declaration: the one place where a block is described.
+//!
+//! Everything that the compiler knows of a block it reads here: the binding of calls, types and sizes,
+//! the C prototype ([`crate::kernel`]), ranges, tunable parameters, memory, documentation.
+
+use crate::source::Span;
+use crate::types::{Real, Scalar, Value};
+
+/// A declared function code.
+#[derive(Clone, Debug)]
+pub struct Decl {
+    /// The function code's name, in the paper's spelling.
+    pub name: String,
+    /// The comment above the declaration, `!` removed, lines joined with newlines.
+    pub doc: String,
+    /// Where the name stands.
+    pub span: Span,
+    /// The folder below `blocks/`, such as `dynamics`; empty for a user's own block.
+    pub group: String,
+    /// The file's stem, shared by declaration, kernel and generated header.
+    pub stem: String,
+    /// Whether the declaration comes from the user's project instead of the catalogue.
+    pub user: bool,
+    /// Output ports in order.
+    pub outputs: Vec<OutputDecl>,
+    /// The input list in order: literals, constants and ports.
+    pub items: Vec<Item>,
+    /// Parameters in order.
+    pub params: Vec<ParamDecl>,
+    /// The size variables, in order: the constants, then the sizes that only ports define.
+    pub sizes: Vec<SizeVar>,
+    /// Kept from scan to scan.
+    pub memory: Vec<Field>,
+    /// Scratch, shared by all blocks.
+    pub work: Vec<Field>,
+    /// Derived from parameters by `tune`.
+    pub tuned: Vec<Field>,
+    /// Indexes of the outputs that `init` sets: the declared initial outputs.
+    pub start: Vec<usize>,
+    /// What is kept over power loss: names of outputs or memory.
+    pub retain: Vec<String>,
+    /// The kernel needs its section's period.
+    pub period: bool,
+    /// The kernel judges its parameters (`pcl2_NAME_check`).
+    pub check: bool,
+    /// An image word at the address given by the fixed parameters.
+    pub image: Option<Image>,
+    /// Statuses; the first is status 1.
+    pub faults: Vec<Fault>,
+    /// The bad-signal rule.
+    pub bad: Option<BadRule>,
+    /// One expression, compiled inline.
+    pub inline: bool,
+    /// Legal in PLANT only.
+    pub simulated: bool,
+    /// Usable in expressions: as this sign, or (empty) as a function.
+    pub operator: Option<String>,
+    /// Tested examples.
+    pub examples: Vec<Example>,
+    /// The statements of a composite.
+    pub body: Option<Vec<crate::ast::Statement>>,
+}
+
+/// The type of a declared place before its sizes are known.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TypeExpr {
+    /// One int or one real.
+    Scalar(Scalar),
+    /// A vector.
+    Vector(Scalar, Expr),
+    /// A matrix: rows, columns.
+    Matrix(Scalar, Expr, Expr),
+    /// Text: parameters only.
+    Text,
+    /// Nanoseconds in an `int64_t`: memory and work only.
+    Time,
+}
+
+/// An expression over literals, size variables and (in bounds) parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expr {
+    /// An integer literal.
+    Int(i32),
+    /// A real literal: bounds only.
+    Real(Real),
+    /// A size variable, an index into [`Decl::sizes`].
+    Size(usize),
+    /// An earlier parameter, an index into [`Decl::params`]: bounds only.
+    Param(usize),
+    /// `-a`
+    Negate(Box<Expr>),
+    /// `a + b`
+    Add(Box<Expr>, Box<Expr>),
+    /// `a - b`
+    Subtract(Box<Expr>, Box<Expr>),
+    /// `a * b`
+    Multiply(Box<Expr>, Box<Expr>),
+    /// `a / b`; on integers it truncates.
+    Divide(Box<Expr>, Box<Expr>),
+}
+
+/// A variable in size expressions.
+#[derive(Clone, Debug)]
+pub struct SizeVar {
+    /// Its name.
+    pub name: String,
+    /// `Some(item)` for a constant of the input list, `None` for a size that ports define.
+    pub constant: Option<usize>,
+}
+
+/// One output port, or a group of them.
+#[derive(Clone, Debug)]
+pub struct OutputDecl {
+    /// The port's name.
+    pub name: String,
+    /// Its type.
+    pub ty: TypeExpr,
+    /// The kernel changes elements in place and keeps the others.
+    pub inout: bool,
+    /// `Some` for a group: that many ports in a row.
+    pub group: Option<Group>,
+    /// Unit, range or names.
+    pub tail: Tail,
+}
+
+/// The size of a group of ports.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// How many ports.
+    pub count: Expr,
+    /// Bounds on the count.
+    pub bounds: Option<Bounds>,
+}
+
+/// One item of the input list.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// An integer that must be written so.
+    Literal(i32),
+    /// A constant: an integer known at compile time.
+    Constant(ConstantDecl),
+    /// An input port.
+    Port(PortDecl),
+}
+
+/// An integer constant of the input list.
+#[derive(Clone, Debug)]
+pub struct ConstantDecl {
+    /// Its name.
+    pub name: String,
+    /// Its index in [`Decl::sizes`].
+    pub size: usize,
+    /// Its range.
+    pub bounds: Option<Bounds>,
+}
+
+/// An input port.
+#[derive(Clone, Debug)]
+pub struct PortDecl {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: TypeExpr,
+    /// Left empty it is an operator cell.
+    pub cell: bool,
+    /// `Some` for a group: that many ports in a row.
+    pub group: Option<Group>,
+    /// A default makes the port optional.
+    pub default: Option<Value>,
+    /// Unit, range or names.
+    pub tail: Tail,
+    /// The output or memory that an operator cell follows after each scan.
+    pub tracks: Option<String>,
+}
+
+/// A parameter.
+#[derive(Clone, Debug)]
+pub struct ParamDecl {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: TypeExpr,
+    /// Known at compile time and never tuned.
+    pub fixed: bool,
+    /// Without a default the place must be filled. A single value for a vector stands for each element.
+    pub default: Option<Value>,
+    /// Unit, range or names.
+    pub tail: Tail,
+}
+
+/// Unit and range, or the names of an enumeration.
+#[derive(Clone, Debug, Default)]
+pub struct Tail {
+    /// The unit, as declared.
+    pub unit: Option<String>,
+    /// The range.
+    pub bounds: Option<Bounds>,
+    /// The names of the values 0, 1, ..
+    pub names: Vec<String>,
+}
+
+/// A range.
+#[derive(Clone, Debug)]
+pub struct Bounds {
+    /// The lower bound.
+    pub lower: Option<Expr>,
+    /// The lower bound itself is excluded (`above`).
+    pub above: bool,
+    /// The upper bound, included.
+    pub upper: Option<Expr>,
+}
+
+/// A named piece of memory.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its name, as in the C struct.
+    pub name: String,
+    /// Its type.
+    pub ty: TypeExpr,
+}
+
+/// The direction of an image word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From the plant.
+    In,
+    /// To the plant.
+    Out,
+}
+
+/// The word of the process image that a block reads or writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// From or to the plant.
+    pub direction: Direction,
+    /// The word's type.
+    pub scalar: Scalar,
+}
+
+/// A status that a kernel can leave.
+#[derive(Clone, Debug)]
+pub struct Fault {
+    /// Its name.
+    pub name: String,
+    /// Its text; `{1}` and `{2}` stand for the reals that a check leaves.
+    pub text: String,
+}
+
+/// What a block does with a bad signal: a letter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BadRule {
+    /// A: algebraic, bad in, bad out.
+    Algebraic,
+    /// H: dynamic, the state is frozen and the output held.
+    Hold,
+    /// S: selector, bad inputs are skipped.
+    Select,
+    /// M: controller, freeze, then shed.
+    Manual,
+    /// F: adaptation frozen.
+    Freeze,
+    /// L: logic on ints, which are never bad.
+    Logic,
+    /// O: output to the plant, never non-finite.
+    Output,
+}
+
+/// A tested example of a declaration.
+#[derive(Clone, Debug)]
+pub struct Example {
+    /// The signal that is compared.
+    pub signal: String,
+    /// The expected values as written: half a unit of the last digit is the tolerance.
+    pub values: Vec<String>,
+    /// After how many scans.
+    pub after: u64,
+    /// The period as written, if any.
+    pub period: Option<String>,
+    /// The program's text.
+    pub program: String,
+    /// Where the EXAMPLE line stands.
+    pub span: Span,
+}
+
+impl TypeExpr {
+    /// Whether the place is one int, one real or one time.
+    pub fn is_scalar(&self) -> bool {
+        matches!(self, TypeExpr::Scalar(_) | TypeExpr::Time)
+    }
+}
+
+impl Decl {
+    /// The ports of the input list in order.
+    pub fn ports(&self) -> impl Iterator<Item = &PortDecl> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Port(port) => Some(port),
+            Item::Constant(_) | Item::Literal(_) => None,
+        })
+    }
+
+    /// The constants of the input list in order.
+    pub fn constants(&self) -> impl Iterator<Item = &ConstantDecl> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Constant(constant) => Some(constant),
+            Item::Port(_) | Item::Literal(_) => None,
+        })
+    }
+
+    /// Whether the code is made of PCL2 statements instead of C.
+    pub fn is_composite(&self) -> bool {
+        self.body.is_some()
+    }
+}
