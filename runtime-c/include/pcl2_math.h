@@ -1,0 +1,65 @@
+/* Elementary functions, the same bits on every target: one source in src/math/ for both widths, IEEE
+ * operations only. At most 1 ulp from the true value, special values as in C99 annex F. */
+#ifndef PCL2_MATH_H
+#define PCL2_MATH_H
+
+#include <math.h>
+
+#include "pcl2.h"
+
+/* e^x; 0 below the smallest subnormal, infinite above the largest real. */
+pcl2_real pcl2_exp(pcl2_real x);
+
+/* e^x - 1, with full digits near 0. */
+pcl2_real pcl2_expm1(pcl2_real x);
+
+/* Hyperbolic tangent. */
+pcl2_real pcl2_tanh(pcl2_real x);
+
+/* The functions of the C library whose results IEEE 754 fixes to the last bit. */
+#if PCL2_REAL_BITS == 64
+#define PCL2_MATH_EXACT(name) name
+#else
+#define PCL2_MATH_EXACT(name) name##f
+#endif
+
+static inline pcl2_real pcl2_sqrt(pcl2_real x)
+{
+    return PCL2_MATH_EXACT(sqrt)(x);
+}
+
+static inline pcl2_real pcl2_fabs(pcl2_real x)
+{
+    return PCL2_MATH_EXACT(fabs)(x);
+}
+
+static inline pcl2_real pcl2_floor(pcl2_real x)
+{
+    return PCL2_MATH_EXACT(floor)(x);
+}
+
+static inline pcl2_real pcl2_ceil(pcl2_real x)
+{
+    return PCL2_MATH_EXACT(ceil)(x);
+}
+
+static inline pcl2_real pcl2_trunc(pcl2_real x)
+{
+    return PCL2_MATH_EXACT(trunc)(x);
+}
+
+#undef PCL2_MATH_EXACT
+
+/* 2^k for a k whose power is a normal real. */
+static inline pcl2_real pcl2_power_of_2(int32_t k)
+{
+    return pcl2_of_bits((pcl2_bits)(k + PCL2_EXPONENT_BIAS) << PCL2_FRACTION_BITS);
+}
+
+/* The k with 2^k <= |x| < 2^(k + 1) of a normal real; less than that of every normal real for 0 and subnormals. */
+static inline int32_t pcl2_exponent(pcl2_real x)
+{
+    return (int32_t)((pcl2_bits_of(x) & PCL2_EXPONENT_MASK) >> PCL2_FRACTION_BITS) - PCL2_EXPONENT_BIAS;
+}
+
+#endif
