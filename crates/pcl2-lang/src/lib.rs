@@ -4,14 +4,19 @@
 //! they understood together with diagnostics.
 
 pub mod ast;
+pub mod bounds;
+pub mod catalogue;
 pub mod codes;
 pub mod decl;
+pub mod declare;
 pub mod diagnostic;
 pub mod kernel;
+pub mod lexer;
 pub mod model;
 pub mod program;
 pub mod render;
 pub mod source;
 pub mod symbol;
+pub mod syntax;
 pub mod types;
 pub mod verify;

@@ -1,0 +1,110 @@
+//! The function codes that a program can use: the packed catalogue, and the user's own.
+
+use crate::codes;
+use crate::decl::Decl;
+use crate::declare;
+use crate::diagnostic::Diagnostic;
+use crate::source::Sources;
+use crate::symbol::Symbols;
+use rustc_hash::FxHashMap;
+
+include!(concat!(env!("OUT_DIR"), "/packed.rs"));
+
+/// The packed declaration files: path below `blocks/` and text.
+pub fn files() -> &'static [(&'static str, &'static str)] {
+    DECLARATIONS
+}
+
+/// The packed error pages: file name (`P0203.md`) and text.
+pub fn pages() -> &'static [(&'static str, &'static str)] {
+    PAGES
+}
+
+/// All known function codes.
+#[derive(Clone, Debug, Default)]
+pub struct Catalogue {
+    decls: Vec<Decl>,
+    by_name: FxHashMap<String, usize>,
+}
+
+/// A user's declaration file.
+#[derive(Clone, Debug)]
+pub struct UserFile {
+    /// The name for messages.
+    pub name: String,
+    /// The file's stem.
+    pub stem: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+impl Catalogue {
+    /// Reads declaration files given as (path below the folder, text), in order.
+    pub fn read(
+        files: &[(&str, &str)],
+        sources: &mut Sources,
+        symbols: &mut Symbols,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Catalogue {
+        let mut catalogue = Catalogue::default();
+        for (path, text) in files {
+            let file = sources.add(format!("blocks/{path}"), text.as_bytes().to_vec());
+            let (group, name) = path.rsplit_once('/').unwrap_or(("", path));
+            let stem = name.strip_suffix(".fc").unwrap_or(name);
+            for decl in declare::read(sources, file, group, stem, symbols, diagnostics) {
+                catalogue.add(decl, diagnostics);
+            }
+        }
+        catalogue
+    }
+
+    /// The packed catalogue.
+    pub fn packed(sources: &mut Sources, symbols: &mut Symbols, diagnostics: &mut Vec<Diagnostic>) -> Catalogue {
+        Catalogue::read(files(), sources, symbols, diagnostics)
+    }
+
+    /// Adds the user's own codes; they win over those of the catalogue.
+    pub fn add_user(
+        &mut self,
+        files: &[UserFile],
+        sources: &mut Sources,
+        symbols: &mut Symbols,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        for user in files {
+            let file = sources.add(user.name.clone(), user.bytes.clone());
+            for mut decl in declare::read(sources, file, "", &user.stem, symbols, diagnostics) {
+                decl.user = true;
+                self.add(decl, diagnostics);
+            }
+        }
+    }
+
+    fn add(&mut self, decl: Decl, diagnostics: &mut Vec<Diagnostic>) {
+        if let Some(known) = self.by_name.get(&decl.name).map(|index| &self.decls[*index]) {
+            let (code, message) = if decl.user && !known.user {
+                (codes::HIDDEN_CODE, format!("`{}` is also a function code of the catalogue; this one is used", decl.name))
+            } else {
+                (codes::BAD_DECLARATION, format!("expected one declaration of `{}`, found a second", decl.name))
+            };
+            diagnostics.push(Diagnostic::new(code, decl.span, message).label(known.span, "the other one"));
+        }
+        self.by_name.insert(decl.name.clone(), self.decls.len());
+        self.decls.push(decl);
+    }
+
+    /// The function code of this name.
+    pub fn find(&self, name: &str) -> Option<&Decl> {
+        self.by_name.get(name).map(|index| &self.decls[*index])
+    }
+
+    /// All declarations in order of reading; a hidden one is left out.
+    pub fn decls(&self) -> impl Iterator<Item = &Decl> {
+        self.decls.iter().enumerate().filter(|(i, decl)| self.by_name.get(&decl.name) == Some(i)).map(|(_, decl)| decl)
+    }
+
+    /// All codes that are declared in the same file as this one.
+    pub fn family(&self, decl: &Decl) -> Vec<&Decl> {
+        self.decls.iter().filter(|other| other.span.file == decl.span.file).collect()
+    }
+}

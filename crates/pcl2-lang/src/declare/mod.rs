@@ -1,0 +1,482 @@
+//! `.fc` files -> declarations.
+
+pub mod raw;
+
+use crate::ast::{Line, Name, Number, Operand, Statement};
+use crate::codes;
+use crate::decl::{
+    BadRule, Bounds, ConstantDecl, Decl, Direction, Example, Expr, Fault, Field, Group, Image, Item, OutputDecl,
+    ParamDecl, PortDecl, SizeVar, Tail, TypeExpr,
+};
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Sources, Span};
+use crate::symbol::Symbols;
+use crate::syntax::{Context, Lines, parse_body_line, parse_declaration_line};
+use crate::types::{Real, Scalar, Value};
+use raw::Raw;
+
+/// The deepest nesting of an expression.
+const MAX_DEPTH: usize = 100;
+
+/// Reads the declarations of one file. `group` and `stem` say where it stands.
+pub fn read(
+    sources: &Sources,
+    file: FileId,
+    group: &str,
+    stem: &str,
+    symbols: &mut Symbols,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Decl> {
+    let source = sources.file(file);
+    let mut context = Context::new(source, file, symbols, diagnostics);
+    let mut lines = Lines::declarations(source, file);
+    let mut decls: Vec<Decl> = Vec::new();
+    while let Some(broken) = lines.next_line(context.diagnostics()) {
+        if broken {
+            continue;
+        }
+        let start = lines.tokens[0].start;
+        let Some(line) = parse_declaration_line(&mut context, &lines) else {
+            continue;
+        };
+        match (line, decls.last_mut()) {
+            (Raw::Head(outputs, call), _) => {
+                let mut decl = head(&mut context, &outputs, &call);
+                decl.doc = comment_above(&source.text, start as usize);
+                (decl.group, decl.stem) = (group.to_owned(), stem.to_owned());
+                decls.push(decl);
+            }
+            (Raw::Clause(found), Some(decl)) => clause(&mut context, &mut lines, decl, found),
+            (Raw::Clause(_), None) => {
+                let span = context.span(start, lines.position());
+                complain(&mut context, span, "expected a declaration before its clauses, found a clause");
+            }
+        }
+    }
+    for decl in &decls {
+        check(&mut context, decl);
+    }
+    decls
+}
+
+fn complain(context: &mut Context<'_>, span: Span, message: impl Into<String>) {
+    context.diagnostics().push(Diagnostic::new(codes::BAD_DECLARATION, span, message));
+}
+
+/// The `!` lines that stand directly above a place, without the `!`.
+fn comment_above(text: &str, start: usize) -> String {
+    let above = text[..start].trim_end_matches([' ', '\t']);
+    let mut lines: Vec<&str> = Vec::new();
+    for line in above.lines().rev() {
+        let Some(comment) = line.trim().strip_prefix('!') else {
+            break;
+        };
+        lines.push(comment.strip_prefix(' ').unwrap_or(comment).trim_end());
+    }
+    lines.reverse();
+    lines.join("\n")
+}
+
+fn head(context: &mut Context<'_>, outputs: &[raw::Output], call: &raw::Call) -> Decl {
+    let mut decl = Decl {
+        name: context.symbol_text(call.name.symbol).to_owned(),
+        doc: String::new(),
+        span: call.name.span,
+        group: String::new(),
+        stem: String::new(),
+        user: false,
+        outputs: Vec::new(),
+        items: Vec::new(),
+        params: Vec::new(),
+        sizes: Vec::new(),
+        memory: Vec::new(),
+        work: Vec::new(),
+        tuned: Vec::new(),
+        start: Vec::new(),
+        retain: Vec::new(),
+        period: false,
+        check: false,
+        image: None,
+        faults: Vec::new(),
+        bad: None,
+        inline: false,
+        simulated: false,
+        operator: None,
+        examples: Vec::new(),
+        body: None,
+    };
+    declare_sizes(context, &mut decl, call);
+    for item in &call.items {
+        let item = declare_item(context, &decl, item);
+        decl.items.push(item);
+    }
+    for param in &call.params {
+        let ty = declare_type(context, &decl, &param.ty);
+        let tail = declare_tail(context, &decl, &param.tail);
+        let default = param.default.as_ref().and_then(|v| default_value(context, v, &ty, &tail));
+        let name = context.symbol_text(param.name.symbol).to_owned();
+        decl.params.push(ParamDecl { name, ty, fixed: param.fixed, default, tail });
+    }
+    for output in outputs {
+        let ty = declare_type(context, &decl, &output.ty);
+        let tail = declare_tail(context, &decl, &output.tail);
+        let group = declare_group(context, &decl, output.group.as_ref());
+        let name = context.symbol_text(output.name.symbol).to_owned();
+        decl.outputs.push(OutputDecl { name, ty, inout: output.inout, group, tail });
+    }
+    decl
+}
+
+/// Constants first, in order, then names that only port types mention.
+fn declare_sizes(context: &mut Context<'_>, decl: &mut Decl, call: &raw::Call) {
+    for (i, item) in call.items.iter().enumerate() {
+        if let raw::Item::Constant(name, _) = item {
+            decl.sizes.push(SizeVar { name: context.symbol_text(name.symbol).to_owned(), constant: Some(i) });
+        }
+    }
+    for item in &call.items {
+        let raw::Item::Port(port) = item else {
+            continue;
+        };
+        let mut names = Vec::new();
+        match &port.ty {
+            raw::Type::Vec(n) | raw::Type::Ivec(n) => size_names(n, &mut names),
+            raw::Type::Mat(r, c) | raw::Type::Imat(r, c) => {
+                size_names(r, &mut names);
+                size_names(c, &mut names);
+            }
+            raw::Type::Int | raw::Type::Real | raw::Type::Text | raw::Type::Time => {}
+        }
+        for name in names {
+            let text = context.symbol_text(name.symbol);
+            if !decl.sizes.iter().any(|size| size.name == text) {
+                decl.sizes.push(SizeVar { name: text.to_owned(), constant: None });
+            }
+        }
+    }
+}
+
+/// A size that stands alone can be taken from the port.
+fn size_names(expr: &raw::Expr, names: &mut Vec<Name>) {
+    if let raw::Expr::Name(name) = expr {
+        names.push(*name);
+    }
+}
+
+fn declare_item(context: &mut Context<'_>, decl: &Decl, item: &raw::Item) -> Item {
+    match item {
+        raw::Item::Literal(value) => Item::Literal(*value),
+        raw::Item::Constant(name, bounds) => {
+            let text = context.symbol_text(name.symbol).to_owned();
+            let size = decl.sizes.iter().position(|size| size.name == text).unwrap_or(0);
+            let bounds = declare_bounds(context, decl, bounds.as_ref());
+            Item::Constant(ConstantDecl { name: text, size, bounds })
+        }
+        raw::Item::Port(port) => {
+            let ty = declare_type(context, decl, &port.ty);
+            let tail = declare_tail(context, decl, &port.tail);
+            let default = port.default.as_ref().and_then(|v| default_value(context, v, &ty, &tail));
+            let group = declare_group(context, decl, port.group.as_ref());
+            if port.cell && default.is_none() {
+                complain(context, port.name.span, "expected a default for an operator cell, found none");
+            }
+            Item::Port(PortDecl {
+                name: context.symbol_text(port.name.symbol).to_owned(),
+                ty,
+                cell: port.cell,
+                group,
+                default,
+                tail,
+                tracks: port.tracks.map(|name| context.symbol_text(name.symbol).to_owned()),
+            })
+        }
+    }
+}
+
+fn declare_group(context: &mut Context<'_>, decl: &Decl, group: Option<&(raw::Expr, Option<raw::Range>)>) -> Option<Group> {
+    let (count, bounds) = group?;
+    let count = declare_expr(context, decl, count, 0);
+    Some(Group { count, bounds: declare_bounds(context, decl, bounds.as_ref()) })
+}
+
+fn declare_type(context: &mut Context<'_>, decl: &Decl, ty: &raw::Type) -> TypeExpr {
+    let mut expr = |e: &raw::Expr| declare_expr(context, decl, e, 0);
+    match ty {
+        raw::Type::Int => TypeExpr::Scalar(Scalar::Int),
+        raw::Type::Real => TypeExpr::Scalar(Scalar::Real),
+        raw::Type::Text => TypeExpr::Text,
+        raw::Type::Time => TypeExpr::Time,
+        raw::Type::Ivec(n) => TypeExpr::Vector(Scalar::Int, expr(n)),
+        raw::Type::Vec(n) => TypeExpr::Vector(Scalar::Real, expr(n)),
+        raw::Type::Imat(r, c) => TypeExpr::Matrix(Scalar::Int, expr(r), expr(c)),
+        raw::Type::Mat(r, c) => TypeExpr::Matrix(Scalar::Real, expr(r), expr(c)),
+    }
+}
+
+fn declare_tail(context: &mut Context<'_>, decl: &Decl, tail: &raw::Tail) -> Tail {
+    Tail {
+        unit: tail.unit.map(|span| context.text(span).to_owned()),
+        bounds: declare_bounds(context, decl, tail.bounds.as_ref()),
+        names: tail.names.iter().map(|name| context.symbol_text(name.symbol).to_owned()).collect(),
+    }
+}
+
+fn declare_bounds(context: &mut Context<'_>, decl: &Decl, range: Option<&raw::Range>) -> Option<Bounds> {
+    let range = range?;
+    let lower = range.lower.as_ref().map(|bound| declare_expr(context, decl, &bound.expr, 0));
+    let upper = range.upper.as_ref().map(|expr| declare_expr(context, decl, expr, 0));
+    Some(Bounds { lower, above: range.lower.as_ref().is_some_and(|bound| bound.above), upper })
+}
+
+fn declare_expr(context: &mut Context<'_>, decl: &Decl, expr: &raw::Expr, depth: usize) -> Expr {
+    if depth > MAX_DEPTH {
+        complain(context, decl.span, format!("expected an expression at most {MAX_DEPTH} deep, found a deeper one"));
+        return Expr::Int(0);
+    }
+    match expr {
+        raw::Expr::Number(Number::Int(value)) => Expr::Int(*value),
+        raw::Expr::Number(Number::Real(value)) => Expr::Real(*value),
+        raw::Expr::Name(name) => declare_name(context, decl, *name),
+        raw::Expr::Negate(a) => Expr::Negate(Box::new(declare_expr(context, decl, a, depth + 1))),
+        raw::Expr::Binary(a, sign, b) => {
+            let a = Box::new(declare_expr(context, decl, a, depth + 1));
+            let b = Box::new(declare_expr(context, decl, b, depth + 1));
+            match sign {
+                '+' => Expr::Add(a, b),
+                '-' => Expr::Subtract(a, b),
+                '*' => Expr::Multiply(a, b),
+                _ => Expr::Divide(a, b),
+            }
+        }
+    }
+}
+
+fn declare_name(context: &mut Context<'_>, decl: &Decl, name: Name) -> Expr {
+    let text = context.symbol_text(name.symbol);
+    if let Some(size) = decl.sizes.iter().position(|size| size.name == text) {
+        return Expr::Size(size);
+    }
+    if let Some(param) = decl.params.iter().position(|param| param.name == text) {
+        return Expr::Param(param);
+    }
+    let message = format!("expected a constant, a port's size or an earlier parameter, found `{text}`");
+    complain(context, name.span, message);
+    Expr::Int(0)
+}
+
+/// A default value. One value for a vector stands for each element, so it stays a scalar here.
+fn default_value(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, tail: &Tail) -> Option<Value> {
+    let scalar = match ty {
+        TypeExpr::Scalar(scalar) | TypeExpr::Vector(scalar, _) | TypeExpr::Matrix(scalar, ..) => Some(*scalar),
+        TypeExpr::Text | TypeExpr::Time => None,
+    };
+    match (value, scalar) {
+        (raw::Value::Number(Number::Int(value)), Some(Scalar::Int)) => Some(Value::Int(*value)),
+        (raw::Value::Number(Number::Int(value)), Some(Scalar::Real)) => Some(Value::Real(Real::from_int(*value))),
+        (raw::Value::Number(Number::Real(value)), Some(Scalar::Real)) => Some(Value::Real(*value)),
+        (raw::Value::Text(span), None) => Some(Value::Text(context.text(*span).into())),
+        (raw::Value::Name(name), Some(Scalar::Int)) => {
+            let text = context.symbol_text(name.symbol).to_owned();
+            let index = tail.names.iter().position(|known| *known == text);
+            if index.is_none() {
+                complain(context, name.span, format!("expected one of the names of the enumeration, found `{text}`"));
+            }
+            index.map(|index| Value::Int(index as i32))
+        }
+        (raw::Value::Name(name), _) => {
+            complain(context, name.span, "expected a number, found a name");
+            None
+        }
+        (raw::Value::Text(span), Some(_)) => {
+            complain(context, *span, "expected a number, found a text");
+            None
+        }
+        (raw::Value::Number(_), _) => {
+            let span = context.span(0, 0);
+            complain(context, span, "expected a value of the place's type, found a number");
+            None
+        }
+    }
+}
+
+fn clause(context: &mut Context<'_>, lines: &mut Lines<'_>, decl: &mut Decl, clause: raw::Clause) {
+    match clause {
+        raw::Clause::Memory(list) => decl.memory.extend(fields(context, decl, &list)),
+        raw::Clause::Work(list) => decl.work.extend(fields(context, decl, &list)),
+        raw::Clause::Tuned(list) => decl.tuned.extend(fields(context, decl, &list)),
+        raw::Clause::Start(names) => start(context, decl, &names),
+        raw::Clause::Retain(names) => retain(context, decl, &names),
+        raw::Clause::Period => decl.period = true,
+        raw::Clause::Check => decl.check = true,
+        raw::Clause::Image(direction, scalar) => image(context, decl, direction, scalar),
+        raw::Clause::Faults(faults) => {
+            decl.faults.extend(faults.iter().map(|(name, text)| Fault {
+                name: context.symbol_text(name.symbol).to_owned(),
+                text: context.text(*text).to_owned(),
+            }));
+        }
+        raw::Clause::Bad(name) => bad(context, decl, name),
+        raw::Clause::Inline => decl.inline = true,
+        raw::Clause::Simulated => decl.simulated = true,
+        raw::Clause::Operator(sign) => {
+            let text = sign.map(|span| context.text(span).trim_start_matches("OPERATOR").trim().trim_matches('"'));
+            decl.operator = Some(text.unwrap_or("").to_owned());
+        }
+        raw::Clause::Example(span, signal, values, after, period) => {
+            let example = Example {
+                signal: signal_name(context, &signal),
+                values: values.iter().map(|span| context.text(*span).split_whitespace().collect()).collect(),
+                after: after.unwrap_or(1),
+                period: period.map(|span| context.text(span).to_owned()),
+                program: text_until_end(context, lines, span),
+                span,
+            };
+            decl.examples.push(example);
+        }
+        raw::Clause::Body => decl.body = Some(body(context, lines)),
+        raw::Clause::End => complain(context, decl.span, "expected a clause, found END without BODY or EXAMPLE"),
+    }
+}
+
+fn fields(context: &mut Context<'_>, decl: &Decl, list: &[raw::Field]) -> Vec<Field> {
+    list.iter()
+        .map(|field| Field {
+            name: context.symbol_text(field.name.symbol).to_owned(),
+            ty: declare_type(context, decl, &field.ty),
+        })
+        .collect()
+}
+
+fn start(context: &mut Context<'_>, decl: &mut Decl, names: &[Name]) {
+    for name in names {
+        let text = context.symbol_text(name.symbol).to_owned();
+        match decl.outputs.iter().position(|output| output.name == text) {
+            Some(index) => decl.start.push(index),
+            None => complain(context, name.span, format!("expected the name of an output, found `{text}`")),
+        }
+    }
+}
+
+fn retain(context: &mut Context<'_>, decl: &mut Decl, names: &[Name]) {
+    for name in names {
+        let text = context.symbol_text(name.symbol).to_owned();
+        let known = decl.outputs.iter().any(|output| output.name == text)
+            || decl.memory.iter().any(|field| field.name == text);
+        if !known {
+            complain(context, name.span, format!("expected the name of an output or of memory, found `{text}`"));
+        }
+        decl.retain.push(text);
+    }
+}
+
+fn image(context: &mut Context<'_>, decl: &mut Decl, name: Name, scalar: Scalar) {
+    let direction = match context.symbol_text(name.symbol) {
+        "in" => Direction::In,
+        "out" => Direction::Out,
+        _ => return complain(context, name.span, "expected `in` or `out`, found another word"),
+    };
+    decl.image = Some(Image { direction, scalar });
+}
+
+fn bad(context: &mut Context<'_>, decl: &mut Decl, name: Name) {
+    decl.bad = match context.symbol_text(name.symbol) {
+        "A" => Some(BadRule::Algebraic),
+        "H" => Some(BadRule::Hold),
+        "S" => Some(BadRule::Select),
+        "M" => Some(BadRule::Manual),
+        "F" => Some(BadRule::Freeze),
+        "L" => Some(BadRule::Logic),
+        "O" => Some(BadRule::Output),
+        _ => None,
+    };
+    if decl.bad.is_none() {
+        complain(context, name.span, "expected one of the letters A, H, S, M, F, L and O, found another word");
+    }
+}
+
+fn signal_name(context: &Context<'_>, signal: &Operand) -> String {
+    match signal {
+        Operand::Member(tag, member) => {
+            format!("{}.{}", context.symbol_text(tag.symbol), context.symbol_text(member.symbol))
+        }
+        Operand::Name(name) => context.symbol_text(name.symbol).to_owned(),
+        Operand::Empty | Operand::Element(..) | Operand::Number(_) | Operand::Text(_) => String::new(),
+    }
+}
+
+/// The lines of an example, up to its END; the END belongs to them.
+fn text_until_end(context: &mut Context<'_>, lines: &mut Lines<'_>, span: Span) -> String {
+    let from = lines.position();
+    let rest = context.text(context.span(from, u32::MAX));
+    let mut length = 0;
+    for line in rest.split_inclusive('\n') {
+        length += line.len();
+        if line.trim() == "END" {
+            lines.jump(from + length as u32);
+            return rest[..length].trim_start_matches(['\r', '\n']).to_owned();
+        }
+    }
+    complain(context, span, "expected END after an example, found the end of the file");
+    lines.jump(u32::MAX);
+    String::new()
+}
+
+fn body(context: &mut Context<'_>, lines: &mut Lines<'_>) -> Vec<Statement> {
+    let mut statements = Vec::new();
+    lines.set_words(true);
+    let mut ended = false;
+    while let Some(broken) = lines.next_line(context.diagnostics()) {
+        if broken {
+            continue;
+        }
+        match parse_body_line(context, lines) {
+            Some(Line::Block(statement)) => statements.push(*statement),
+            Some(Line::End(_)) => {
+                ended = true;
+                break;
+            }
+            Some(Line::Initialize(span) | Line::Plant(span) | Line::Control(span, _)) => {
+                complain(context, span, "expected a statement or END in a BODY, found a section word");
+            }
+            None => {}
+        }
+    }
+    if !ended {
+        let end = lines.position();
+        let span = context.span(end, end);
+        complain(context, span, "expected END after BODY, found the end of the file");
+    }
+    lines.set_words(false);
+    statements
+}
+
+/// What a declaration must not contradict.
+fn check(context: &mut Context<'_>, decl: &Decl) {
+    let mut names: Vec<&str> = decl.ports().map(|port| port.name.as_str()).collect();
+    names.extend(decl.params.iter().map(|param| param.name.as_str()));
+    names.extend(decl.outputs.iter().map(|output| output.name.as_str()));
+    names.extend(decl.sizes.iter().map(|size| size.name.as_str()));
+    names.extend(decl.memory.iter().chain(&decl.work).chain(&decl.tuned).map(|field| field.name.as_str()));
+    names.sort_unstable();
+    if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+        complain(context, decl.span, format!("expected each name once in a declaration, found `{}` twice", twice[0]));
+    }
+    if decl.period && decl.tuned.is_empty() {
+        complain(context, decl.span, "expected TUNED beside PERIOD, to keep what the step needs, found none");
+    }
+    if decl.check && decl.faults.is_empty() {
+        complain(context, decl.span, "expected FAULTS beside CHECK, to say what is refused, found none");
+    }
+    if decl.inline && !(decl.memory.is_empty() && decl.tuned.is_empty() && decl.faults.is_empty()) {
+        complain(context, decl.span, "expected an INLINE code without MEMORY, TUNED or FAULTS");
+    }
+    for port in decl.ports() {
+        let tracked = port.tracks.as_ref();
+        let known = tracked.is_none_or(|name| {
+            decl.outputs.iter().any(|output| output.name == *name) || decl.memory.iter().any(|field| field.name == *name)
+        });
+        if !known {
+            complain(context, decl.span, format!("expected `{}` to track an output or memory", port.name));
+        }
+    }
+}

@@ -1,0 +1,530 @@
+//! Tokens -> statements: lines are cut, missing parentheses found, then each line is parsed by itself,
+//! so that one mistake never hides the next.
+
+use crate::ast::{Line, Name, Number, Operand, Output, Statement};
+use crate::codes;
+use crate::declare::raw::Expr;
+use crate::diagnostic::Diagnostic;
+use crate::lexer::{DECLARATION_WORDS, Key, Lexeme, Lexer, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of};
+use crate::source::{FileId, NOT_TEXT, SourceFile, Sources, Span};
+use crate::symbol::{Symbol, Symbols};
+use crate::types::Real;
+use lalrpop_util::ParseError;
+
+lalrpop_util::lalrpop_mod!(
+    #[allow(clippy::all, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, unreachable_pub, unused)]
+    cfg
+);
+lalrpop_util::lalrpop_mod!(
+    #[allow(clippy::all, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, unreachable_pub, unused)]
+    fc
+);
+
+/// The longest name.
+pub const MAX_NAME: usize = 63;
+
+/// What was written in one `.cfg` file.
+#[derive(Clone, Debug, Default)]
+pub struct Tree {
+    /// Its lines in order, END excluded.
+    pub lines: Vec<Line>,
+    /// Names that stand as outputs of lines which could not be parsed: not unknown, but nothing is known of them.
+    pub spoiled: Vec<Symbol>,
+    /// Numbers of such lines.
+    pub spoiled_numbers: Vec<u32>,
+    /// Where the file ends.
+    pub end: Option<Span>,
+}
+
+/// What grammar actions need: the text, the names, and where to complain.
+pub struct Context<'a> {
+    text: &'a str,
+    file: FileId,
+    symbols: &'a mut Symbols,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+/// Parses a `.cfg` file.
+pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics: &mut Vec<Diagnostic>) -> Tree {
+    let source = sources.file(file);
+    let mut context = Context { text: &source.text, file, symbols, diagnostics };
+    let mut lines = Lines::new(source, file, &SECTION_WORDS);
+    let parser = cfg::CfgLineParser::new();
+    let mut tree = Tree::default();
+    while let Some(broken) = lines.next_line(context.diagnostics) {
+        match parser.parse(&mut context, lines.tokens()) {
+            Ok(Line::End(_)) => {
+                tree.end = Some(context.span(lines.tokens[0].start, lines.tokens[0].end));
+                return tree;
+            }
+            Ok(line) => tree.lines.push(line),
+            Err(error) => {
+                if !broken {
+                    context.report(error, &lines.tokens);
+                }
+                context.spoil(&lines.tokens, &mut tree);
+            }
+        }
+    }
+    let length = source.text.len() as u32;
+    let end = context.span(length, length);
+    if !source.text.is_empty() || tree.lines.is_empty() {
+        context.diagnostics.push(
+            Diagnostic::new(codes::MISSING_END, end, "expected END, found the end of the file")
+                .help("the file may be cut short; if it is whole, add a line END"),
+        );
+    }
+    tree
+}
+
+/// Parses one line of a `.fc` file that was already cut.
+pub(crate) fn parse_declaration_line(context: &mut Context<'_>, lines: &Lines<'_>) -> Option<crate::declare::raw::Raw> {
+    match fc::FcLineParser::new().parse(context, lines.tokens()) {
+        Ok(raw) => Some(raw),
+        Err(error) => {
+            context.report(error, &lines.tokens);
+            None
+        }
+    }
+}
+
+/// Parses one statement of a composite's body.
+pub(crate) fn parse_body_line(context: &mut Context<'_>, lines: &Lines<'_>) -> Option<Line> {
+    match cfg::CfgLineParser::new().parse(context, lines.tokens()) {
+        Ok(line) => Some(line),
+        Err(error) => {
+            context.report(error, &lines.tokens);
+            None
+        }
+    }
+}
+
+/// Cuts a file into logical lines: a newline inside parentheses is white space.
+pub(crate) struct Lines<'a> {
+    source: &'a SourceFile,
+    file: FileId,
+    lexer: Lexer<'a>,
+    pending: Option<Lexeme>,
+    /// The tokens of the current line.
+    pub(crate) tokens: Vec<Lexeme>,
+}
+
+impl<'a> Lines<'a> {
+    fn new(source: &'a SourceFile, file: FileId, words: &'static [(&'static str, Key)]) -> Lines<'a> {
+        Lines { source, file, lexer: Lexer::new(&source.text, words), pending: None, tokens: Vec::new() }
+    }
+
+    pub(crate) fn declarations(source: &'a SourceFile, file: FileId) -> Lines<'a> {
+        Lines::new(source, file, &DECLARATION_WORDS)
+    }
+
+    /// Switches between the words of declarations and those of programs, for a composite's body.
+    pub(crate) fn set_words(&mut self, in_body: bool) {
+        self.lexer.set_words(if in_body { &SECTION_WORDS } else { &DECLARATION_WORDS });
+    }
+
+    /// The rest of the text after the current line.
+    pub(crate) fn position(&self) -> u32 {
+        self.tokens.last().map_or(0, |lexeme| lexeme.end)
+    }
+
+    /// Goes on at a byte of the text.
+    pub(crate) fn jump(&mut self, byte: u32) {
+        self.pending = None;
+        self.lexer.jump(byte);
+    }
+
+    /// Reads the next line that is not blank. `Some(true)`: it is broken in a way that was already reported.
+    pub(crate) fn next_line(&mut self, diagnostics: &mut Vec<Diagnostic>) -> Option<bool> {
+        self.tokens.clear();
+        let mut open: Vec<Lexeme> = Vec::new();
+        let mut bad = Bad::default();
+        loop {
+            let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) else {
+                break;
+            };
+            match lexeme.token {
+                Token::Newline if open.is_empty() && self.tokens.is_empty() => continue,
+                Token::Newline if open.is_empty() => break,
+                Token::Newline if self.starts_statement() => break,
+                Token::Newline => continue,
+                Token::LeftParen => open.push(lexeme),
+                Token::RightParen => drop(open.pop()),
+                Token::Bad => {
+                    let token = bad.meet(lexeme, self, diagnostics);
+                    self.push_replacement(token, lexeme, &mut open);
+                    continue;
+                }
+                Token::Dot if self.is_stray_dot(lexeme) => {
+                    diagnostics.push(stray_dot(self.span(lexeme)));
+                    continue;
+                }
+                _ => {}
+            }
+            self.tokens.push(lexeme);
+        }
+        if self.tokens.is_empty() {
+            return None;
+        }
+        if let Some(first) = open.first() {
+            self.report_unclosed(*first, diagnostics);
+            self.close(open.len());
+        }
+        Some(bad.unknown || !open.is_empty())
+    }
+
+    /// The tokens as lalrpop wants them.
+    fn tokens(&self) -> impl Iterator<Item = Result<(u32, Token, u32), ()>> + '_ {
+        self.tokens.iter().map(|lexeme| Ok((lexeme.start, lexeme.token, lexeme.end)))
+    }
+
+    fn span(&self, lexeme: Lexeme) -> Span {
+        Span { file: self.file, start: lexeme.start, end: lexeme.end }
+    }
+
+    fn push_replacement(&mut self, token: Option<Token>, lexeme: Lexeme, open: &mut Vec<Lexeme>) {
+        let Some(token) = token else {
+            return;
+        };
+        match token {
+            Token::LeftParen => open.push(lexeme),
+            Token::RightParen => drop(open.pop()),
+            _ => {}
+        }
+        self.tokens.push(Lexeme { token, ..lexeme });
+    }
+
+    fn is_stray_dot(&self, dot: Lexeme) -> bool {
+        self.tokens.last().is_some_and(|last| last.token == Token::Real && last.end == dot.start)
+    }
+
+    /// Whether what follows a newline inside parentheses looks like a new statement:
+    /// `[number] [names] = code (`, `number [names] =`, or a section word.
+    fn starts_statement(&self) -> bool {
+        let mut ahead = self.lexer.clone().map(|lexeme| lexeme.token).peekable();
+        if let Some(Token::Key(Key::Initialize | Key::Plant | Key::Control | Key::End)) = ahead.peek() {
+            return true;
+        }
+        let numbered = ahead.next_if_eq(&Token::Int).is_some();
+        while ahead.next_if(|token| matches!(token, Token::Name | Token::Underscore)).is_some() {
+            if ahead.next_if_eq(&Token::Comma).is_none() {
+                break;
+            }
+        }
+        let equals = ahead.next_if_eq(&Token::Equals).is_some();
+        let call = ahead.next_if_eq(&Token::Name).is_some() && ahead.next_if_eq(&Token::LeftParen).is_some();
+        equals && (numbered || call)
+    }
+
+    fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
+        diagnostics.push(
+            Diagnostic::new(codes::UNCLOSED, self.span(open), "expected `)`, found the next statement or the end of the file")
+                .help("close this parenthesis"),
+        );
+    }
+
+    /// Adds what is missing, so that the rest of the statement is still understood.
+    fn close(&mut self, count: usize) {
+        let Some(last) = self.tokens.last().copied() else {
+            return;
+        };
+        if count == 1 && !self.tokens.iter().any(|lexeme| lexeme.token == Token::Colon) {
+            self.tokens.push(Lexeme { token: Token::Colon, start: last.end, end: last.end });
+        }
+        if count == 1 {
+            self.tokens.push(Lexeme { token: Token::RightParen, start: last.end, end: last.end });
+        }
+    }
+}
+
+fn stray_dot(span: Span) -> Diagnostic {
+    Diagnostic::new(codes::STRAY_DOT, span, "expected `,` or `)` after a real, found a second dot")
+        .help("the dot is ignored; delete it")
+}
+
+/// Characters without a meaning, reported once for each run of them.
+#[derive(Default)]
+struct Bad {
+    last_end: Option<u32>,
+    skip: u32,
+    unknown: bool,
+}
+
+impl Bad {
+    /// Reports the character and returns the ASCII token it stands for.
+    fn meet(&mut self, lexeme: Lexeme, lines: &Lines<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Token> {
+        if lexeme.start < self.skip {
+            return None;
+        }
+        let continues = self.last_end == Some(lexeme.start);
+        self.last_end = Some(lexeme.end);
+        let text = &lines.source.text[lexeme.start as usize..];
+        let character = text.chars().next().unwrap_or(NOT_TEXT);
+        let twin = if character == NOT_TEXT { self.bytes_twin(lexeme, lines.source) } else { ascii_of(character) };
+        let token = twin.and_then(token_of);
+        self.unknown |= token.is_none() && twin != Some(' ');
+        if !continues || twin.is_some() {
+            diagnostics.push(bad_character(character, twin, lines.span(lexeme), lines.source));
+        }
+        token
+    }
+
+    fn bytes_twin(&mut self, lexeme: Lexeme, source: &SourceFile) -> Option<char> {
+        let raw = source.raw.as_deref()?;
+        let first = *raw.get(lexeme.start as usize)?;
+        let twin = ascii_of_bytes(first, *raw.get(lexeme.start as usize + 1)?)?;
+        self.skip = lexeme.start + 2;
+        Some(twin)
+    }
+}
+
+fn bad_character(character: char, twin: Option<char>, span: Span, source: &SourceFile) -> Diagnostic {
+    let found = match character {
+        NOT_TEXT => match source.raw.as_deref().and_then(|raw| raw.get(span.start as usize)) {
+            Some(byte) => format!("the byte 0x{byte:02x}"),
+            None => "a control character".to_owned(),
+        },
+        c if c.is_control() => format!("the control character 0x{:02x}", c as u32),
+        c => format!("`{c}`"),
+    };
+    match twin {
+        Some(' ') => Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found a full-width blank ({found})"))
+            .help("type an ordinary blank; any text is free in comments, after `!`"),
+        Some(twin) => {
+            Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected ASCII `{twin}`, found its full-width form ({found})"))
+                .help(format!("type `{twin}` with the input method off"))
+        }
+        None => Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected a name, a number or punctuation, found {found}"))
+            .help("outside comments only ASCII letters, digits and punctuation have a meaning"),
+    }
+}
+
+impl<'a> Context<'a> {
+    pub(crate) fn new(
+        source: &'a SourceFile,
+        file: FileId,
+        symbols: &'a mut Symbols,
+        diagnostics: &'a mut Vec<Diagnostic>,
+    ) -> Context<'a> {
+        Context { text: &source.text, file, symbols, diagnostics }
+    }
+
+    pub(crate) fn diagnostics(&mut self) -> &mut Vec<Diagnostic> {
+        self.diagnostics
+    }
+
+    pub(crate) fn span(&self, start: u32, end: u32) -> Span {
+        let length = self.text.len() as u32;
+        let start = start.min(length);
+        Span { file: self.file, start, end: end.min(length).max(start) }
+    }
+
+    pub(crate) fn text(&self, span: Span) -> &'a str {
+        &self.text[span.start as usize..span.end as usize]
+    }
+
+    pub(crate) fn symbol_text(&self, symbol: Symbol) -> &str {
+        self.symbols.text(symbol)
+    }
+
+    fn statement(
+        &mut self,
+        start: u32,
+        number: Option<(u32, Span)>,
+        outputs: Vec<Output>,
+        call: (Name, Vec<crate::ast::Item>, Span, Vec<crate::ast::Item>),
+        end: u32,
+    ) -> Statement {
+        let (code, inputs, colon, params) = call;
+        Statement { number, outputs, code, inputs, params, colon, span: self.span(start, end) }
+    }
+
+    fn name(&mut self, start: u32, end: u32) -> Name {
+        let span = self.span(start, end);
+        let text = self.text(span);
+        if text.len() > MAX_NAME {
+            let message = format!("expected a name of at most {MAX_NAME} characters, found {}", text.len());
+            self.diagnostics.push(Diagnostic::new(codes::BAD_NAME, span, message));
+        }
+        Name { symbol: self.symbols.intern(text), span }
+    }
+
+    fn discard(&mut self, start: u32, end: u32) -> Output {
+        let span = self.span(start, end);
+        if end - start > 1 {
+            let message = format!("expected a name that starts with a letter, found `{}`", self.text(span));
+            self.diagnostics.push(Diagnostic::new(codes::BAD_NAME, span, message));
+        }
+        Output::Discard(span)
+    }
+
+    fn natural(&mut self, start: u32, end: u32) -> (u32, Span) {
+        let span = self.span(start, end);
+        let value = self.text(span).parse::<i32>().unwrap_or_else(|_| {
+            self.complain_int(span);
+            0
+        });
+        (value.unsigned_abs(), span)
+    }
+
+    fn index(&mut self, start: u32, negative: bool, end: u32) -> (i32, Span) {
+        match self.number(start, negative, end) {
+            Number::Int(value) => (value, self.span(start, end)),
+            Number::Real(_) => (0, self.span(start, end)),
+        }
+    }
+
+    fn int(&mut self, start: u32, negative: bool, end: u32) -> Operand {
+        Operand::Number(self.number(start, negative, end))
+    }
+
+    fn real(&mut self, start: u32, negative: bool, end: u32) -> Operand {
+        Operand::Number(self.number(start, negative, end))
+    }
+
+    /// The number under a span that may start with a sign and blanks.
+    fn number(&mut self, start: u32, negative: bool, end: u32) -> Number {
+        let span = self.span(start, end);
+        let digits = self.text(span).trim_start_matches(['+', '-']).trim_start_matches([' ', '\t', '\r', '\n']);
+        let digits = digits.rsplit(['\n', '\r', ' ', '\t']).next().unwrap_or(digits);
+        if digits.bytes().all(|byte| byte.is_ascii_digit()) {
+            let signed = digits.parse::<i64>().ok().map(|value| if negative { -value } else { value });
+            return Number::Int(signed.and_then(|value| i32::try_from(value).ok()).unwrap_or_else(|| {
+                self.complain_int(span);
+                0
+            }));
+        }
+        Number::Real(read_real(digits, negative).unwrap_or_else(|| {
+            let message = format!("expected a real number that a double can hold, found `{}`", self.text(span));
+            self.diagnostics.push(Diagnostic::new(codes::NUMBER_RANGE, span, message));
+            Real::ZERO
+        }))
+    }
+
+    fn complain_int(&mut self, span: Span) {
+        let message = format!("expected an integer from -2147483648 to 2147483647, found `{}`", self.text(span));
+        self.diagnostics.push(Diagnostic::new(codes::NUMBER_RANGE, span, message));
+    }
+
+    fn binary(&mut self, a: Expr, sign: char, b: Expr) -> Expr {
+        Expr::binary(a, sign, b)
+    }
+
+    fn negate(&mut self, a: Expr) -> Expr {
+        Expr::Negate(Box::new(a))
+    }
+
+    fn report(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
+        let (span, found, expected) = match error {
+            ParseError::UnrecognizedToken { token: (start, token, end), expected } => {
+                (self.span(start, end), self.describe(token, start, end), expected)
+            }
+            ParseError::ExtraToken { token: (start, token, end) } => {
+                (self.span(start, end), self.describe(token, start, end), vec!["the end of the line".to_owned()])
+            }
+            ParseError::UnrecognizedEof { expected, .. } => {
+                let end = tokens.last().map_or(0, |lexeme| lexeme.end);
+                (self.span(end.saturating_sub(1), end), "the end of the line".to_owned(), expected)
+            }
+            ParseError::InvalidToken { location } => {
+                (self.span(location, location + 1), "an unknown token".to_owned(), Vec::new())
+            }
+            ParseError::User { .. } => return,
+        };
+        if self.text(span).starts_with('"') && !self.text(span)[1..].contains('"') {
+            let message = "expected a closing `\"` on the same line, found the end of the line";
+            self.diagnostics.push(Diagnostic::new(codes::UNCLOSED_STRING, span, message));
+            return;
+        }
+        let message = format!("expected {}, found {found}", list(&expected));
+        self.diagnostics.push(Diagnostic::new(codes::UNEXPECTED, span, message).help(form_help(tokens)));
+    }
+
+    fn describe(&self, token: Token, start: u32, end: u32) -> String {
+        match token {
+            Token::Newline => "the end of the line".to_owned(),
+            _ => {
+                let text = self.text(self.span(start, end));
+                let short: String = text.chars().take(40).collect();
+                let dots = if short.len() < text.len() { ".." } else { "" };
+                format!("`{short}{dots}`")
+            }
+        }
+    }
+
+    /// Keeps the number and the output names of a line that is no statement, so that others may refer to them.
+    fn spoil(&mut self, tokens: &[Lexeme], tree: &mut Tree) {
+        for lexeme in tokens {
+            let text = self.text(self.span(lexeme.start, lexeme.end));
+            match lexeme.token {
+                Token::Name => {
+                    let symbol = self.symbols.intern(text);
+                    tree.spoiled.push(symbol);
+                }
+                Token::Int => tree.spoiled_numbers.extend(text.parse::<u32>()),
+                Token::Equals => return,
+                _ => {}
+            }
+        }
+    }
+}
+
+fn form_help(tokens: &[Lexeme]) -> &'static str {
+    match tokens.first().map(|lexeme| lexeme.token) {
+        Some(Token::Key(Key::Control)) => "a section is `CONTROL [n [offset]]`",
+        Some(Token::Key(_)) => "a section word stands alone on its line",
+        _ => "a block is `[number] [outputs] = code ( inputs : parameters )`",
+    }
+}
+
+/// A real in both widths, each converted once from the decimal text; `None` when it overflows a double or a float
+/// that should hold it.
+pub fn read_real(digits: &str, negative: bool) -> Option<Real> {
+    let wide: f64 = digits.parse().ok()?;
+    let narrow: f32 = digits.parse().ok()?;
+    let sign = if negative { -1.0 } else { 1.0 };
+    wide.is_finite().then_some(Real { wide: wide * sign, narrow: narrow * sign as f32 })
+}
+
+/// `a`, `b` or `c`, in the words of the language.
+fn list(expected: &[String]) -> String {
+    let mut words: Vec<&str> = expected.iter().map(|token| readable(token)).collect();
+    words.sort_unstable_by_key(|word| (word.starts_with('`'), *word));
+    words.dedup();
+    let names_number = words.contains(&"a name") && words.contains(&"a number");
+    if names_number {
+        words.retain(|word| !matches!(*word, "`+`" | "`-`" | "a string" | "`_`"));
+    }
+    match words.as_slice() {
+        [] => "the end of the line".to_owned(),
+        [one] => (*one).to_owned(),
+        [most @ .., last] => format!("{} or {last}", most.join(", ")),
+    }
+}
+
+fn readable(token: &str) -> &str {
+    match token.trim_matches('"') {
+        "NAME" => "a name",
+        "INT" => "a number",
+        "REAL" => "a number",
+        "TEXT" => "a string",
+        "(" => "`(`",
+        ")" => "`)`",
+        "[" => "`[`",
+        "]" => "`]`",
+        "{" => "`{`",
+        "}" => "`}`",
+        "," => "`,`",
+        ":" => "`:`",
+        "=" => "`=`",
+        "." => "`.`",
+        "+" => "`+`",
+        "-" => "`-`",
+        "*" => "`*`",
+        "/" => "`/`",
+        "_" => "`_`",
+        "INITIALIZE" | "PLANT" | "CONTROL" | "END" => "a section word",
+        "int" | "real" | "ivec" | "vec" | "imat" | "mat" | "text" | "time" | "inout" => "a type",
+        _ => "a clause word",
+    }
+}
