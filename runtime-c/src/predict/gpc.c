@@ -13,10 +13,19 @@
  * place of y itself because A(1 - z^-1) annihilates constants: one product less, no steady error from
  * rounding, and less cancellation in float.
  *
- * past:  y(t-1), Dy(t-1) .. Dy(t-na+1), Du(t-1) .. Du(t-nb+1-d)
+ * y1:    y(t-1)
+ * past:  Dy(t-1) .. Dy(t-na+1), Du(t-1) .. Du(t-nb+1-d)
  * gain:  kw, ky_0 .. ky_(na-1), ku_1 .. ku_(nb-1+d)
  */
 #include "pcl2_gpc.h"
+#include "pcl2_math.h"
+
+/* The loops of a horizon of up to 16 vanish where the sizes are literals. */
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
+#define GPC_UNROLL _Pragma("GCC unroll 16")
+#else
+#define GPC_UNROLL
+#endif
 
 enum { GPC_OK = 0, GPC_SIGNAL = 1, GPC_SINGULAR = 2 };
 
@@ -28,33 +37,49 @@ struct gpc_size {
 /* Where one controller keeps what; model holds the p of the last design. */
 struct gpc_state {
     pcl2_real *designed;  /* lambda of the last design, -1 before the first */
-    int32_t *started;     /* 1 once past holds a measured y */
+    pcl2_real *y1;
+    int32_t *started;     /* 1 once y1 is a measured y */
     int32_t *status;
     pcl2_real *u;         /* the output, u(t-1) until it is written */
     pcl2_real *model, *gain, *past, *work;
 };
 
 /* A NaN ends at umin, an infinity at its own side. */
-static inline pcl2_real gpc_clamp(pcl2_real u, pcl2_real umin, pcl2_real umax)
+PCL2_INLINE pcl2_real gpc_clamp(pcl2_real u, pcl2_real umin, pcl2_real umax)
 {
     u = (u > umin) ? u : umin;
     return (u < umax) ? u : umax;
 }
 
-/* c_r: step response of 1/A from c_0 = 1, N2 values.  g_s = sum b_m c_(s-1-m): step response of B/A
- * without its dead time, N2 - d values from g_1 (the g_j of the paper, moved by d). */
-static inline void gpc_responses(struct gpc_size z, const pcl2_real *p, pcl2_real *c, pcl2_real *g)
+/* How far the model reaches back: steps at which something of the past still enters it. */
+PCL2_INLINE int32_t gpc_reach(struct gpc_size z)
 {
+    return (z.na > z.nb - 1 + z.d) ? z.na : z.nb - 1 + z.d;
+}
+
+/* c_r: step response of 1/A from c_0 = 1, N2 values after gpc_reach zeros.  g_s = sum b_m c_(s-1-m): step
+ * response of B/A without its dead time, N2 - d values from g_1 (the g_j of the paper, moved by d).
+ * The newest term is added last: it is the one that the next turn waits for. */
+PCL2_INLINE void gpc_responses(struct gpc_size z, const pcl2_real *p, pcl2_real *c, pcl2_real *g)
+{
+    GPC_UNROLL
+    for (int32_t r = -gpc_reach(z); r < 0; ++r) {
+        c[r] = PCL2_R(0.0);
+    }
+    GPC_UNROLL
     for (int32_t r = 0; r < z.n2; ++r) {
         pcl2_real sum = PCL2_R(1.0);
-        for (int32_t i = (z.na < r) ? z.na : r; i >= 1; --i) {
+        GPC_UNROLL
+        for (int32_t i = z.na; i >= 1; --i) {
             sum += p[i - 1] * c[r - i];
         }
         c[r] = sum;
     }
+    GPC_UNROLL
     for (int32_t s = 0; s < z.n2 - z.d; ++s) {
-        pcl2_real sum = PCL2_R(0.0);
-        for (int32_t m = (z.nb - 1 < s) ? z.nb - 1 : s; m >= 0; --m) {
+        pcl2_real sum = p[z.na + z.nb - 1] * c[s - z.nb + 1];
+        GPC_UNROLL
+        for (int32_t m = z.nb - 2; m >= 0; --m) {
             sum += p[z.na + m] * c[s - m];
         }
         g[s] = sum;
@@ -63,12 +88,15 @@ static inline void gpc_responses(struct gpc_size z, const pcl2_real *p, pcl2_rea
 
 /* Upper triangle of G'G + lambda I.  G is Toeplitz, so the elements of one diagonal are partial sums
  * of one row: (G'G)[l-e][l] = sum over q = 1..n-l of g_q g_(q+e). */
-static inline void gpc_hessian(struct gpc_size z, const pcl2_real *g, pcl2_real lambda, pcl2_real *h)
+PCL2_INLINE void gpc_hessian(struct gpc_size z, const pcl2_real *g, pcl2_real lambda, pcl2_real *h)
 {
+    GPC_UNROLL
     for (int32_t e = 0; e < z.nu; ++e) {
         pcl2_real sum = PCL2_R(0.0);
         int32_t q = 0;
+        GPC_UNROLL
         for (int32_t l = z.nu - 1; l >= e; --l) {
+            GPC_UNROLL
             for (; q < z.n2 - z.d - l; ++q) {
                 sum += g[q] * g[q + e];
             }
@@ -77,65 +105,85 @@ static inline void gpc_hessian(struct gpc_size z, const pcl2_real *g, pcl2_real 
     }
 }
 
-/* v = first column of the inverse of h, by h = U D U', U unit upper triangular: eliminated from the
- * last move upwards, so that only the back substitution of one unit vector remains.  A pivot that is
- * rounding noise of its diagonal element counts as zero. */
-static inline int32_t gpc_solve(int32_t n, pcl2_real *h, pcl2_real *v)
+/* First column of the inverse of h: h = U D U', U unit upper triangular, is eliminated from the last move
+ * upwards, so that only the back substitution of one unit vector remains.  v is that column over its
+ * first element, which is returned; 0 when h is singular.  A pivot that is rounding noise of its
+ * diagonal element counts as zero. */
+PCL2_INLINE pcl2_real gpc_solve(int32_t n, pcl2_real *h, pcl2_real *v)
 {
-    const pcl2_real noise = (PCL2_REAL_BITS == 32) ? PCL2_R(1.2e-7) : PCL2_R(2.3e-16);
+    const pcl2_real noise = PCL2_REAL_EPSILON * (pcl2_real)n;
+    pcl2_real inverse = PCL2_R(0.0);
+    GPC_UNROLL
     for (int32_t j = 0; j < n; ++j) {
-        v[j] = h[j * n + j] * noise * (pcl2_real)n;
+        v[j] = h[j * n + j] * noise;
     }
+    GPC_UNROLL
     for (int32_t j = n - 1; j >= 0; --j) {
         const pcl2_real pivot = h[j * n + j];
         if (!(pivot > v[j])) {
-            return GPC_SINGULAR;
+            return PCL2_R(0.0);
         }
-        const pcl2_real inverse = PCL2_R(1.0) / pivot;
+        inverse = PCL2_R(1.0) / pivot;
+        GPC_UNROLL
         for (int32_t i = j - 1; i >= 0; --i) {
             const pcl2_real factor = h[i * n + j] * inverse;
+            GPC_UNROLL
             for (int32_t l = i; l >= 0; --l) {
                 h[l * n + i] -= h[l * n + j] * factor;
             }
             h[i * n + j] = factor;
         }
-        v[j] = inverse;
     }
+    v[0] = PCL2_R(1.0);
+    GPC_UNROLL
     for (int32_t j = 1; j < n; ++j) {
-        pcl2_real sum = h[j] * v[0];
+        pcl2_real sum = h[j];
+        GPC_UNROLL
         for (int32_t i = 1; i < j; ++i) {
             sum += h[i * n + j] * v[i];
         }
         v[j] = -sum;
     }
-    return GPC_OK;
+    return inverse;
 }
 
-/* Weight of what enters the model at step q from the past, q = 1..: mu_q = sum over the horizon of
- * k_j c_(j-q), with the gains k_j = sum_i v_i g_(j-d-i).  By move i these are correlations of g and c
- * at the lag i + d - q, summed up to n - i. */
-static inline pcl2_real gpc_weight(struct gpc_size z, const pcl2_real *c, const pcl2_real *g,
-                                   const pcl2_real *v, int32_t q)
+/* Weights of what enters the model at step q = 1.. from the past: mu_q = sum over the horizon of
+ * k_j c_(j-q), with the gains k_j = sum_i v_i g_(j-d-i) of w - f (over the scale of gpc_solve).  Move i contributes the correlation of
+ * g and c at the lag i + d - q up to n - i, so the moves of one lag share a running sum. */
+PCL2_INLINE void gpc_weights(struct gpc_size z, const pcl2_real *c, const pcl2_real *g, const pcl2_real *v,
+                             pcl2_real *mu)
 {
-    pcl2_real weight = PCL2_R(0.0);
-    for (int32_t i = 0; i < z.nu; ++i) {
-        const int32_t lag = i + z.d - q;
-        pcl2_real sum = PCL2_R(0.0);
-        for (int32_t s = (lag < -1) ? -lag : 1; s <= z.n2 - z.d - i; ++s) {
-            sum += g[s - 1] * c[s + lag];
-        }
-        weight += v[i] * sum;
+    const int32_t nq = gpc_reach(z);
+    GPC_UNROLL
+    for (int32_t q = 0; q < nq; ++q) {
+        mu[q] = PCL2_R(0.0);
     }
-    return weight;
+    GPC_UNROLL
+    for (int32_t lag = 1 - nq; lag < z.nu; ++lag) {
+        const int32_t first = (lag > 0) ? lag : 0;
+        const int32_t last = (lag - 1 + nq < z.nu - 1) ? lag - 1 + nq : z.nu - 1;
+        pcl2_real sum = PCL2_R(0.0);
+        int32_t s = 0;
+        GPC_UNROLL
+        for (int32_t i = last; i >= first; --i) {
+            GPC_UNROLL
+            for (; s < z.n2 - z.d - i; ++s) {
+                sum += g[s] * c[s + z.d + lag];
+            }
+            mu[i - lag] += v[i] * sum;
+        }
+    }
 }
 
 /* kw = sum of all k_j. */
-static inline pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g, const pcl2_real *v)
+PCL2_INLINE pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g, const pcl2_real *v)
 {
     pcl2_real gain = PCL2_R(0.0);
     pcl2_real sum = PCL2_R(0.0);
     int32_t s = 0;
+    GPC_UNROLL
     for (int32_t i = z.nu - 1; i >= 0; --i) {
+        GPC_UNROLL
         for (; s < z.n2 - z.d - i; ++s) {
             sum += g[s];
         }
@@ -144,48 +192,51 @@ static inline pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g,
     return gain;
 }
 
-/* The law of a new model: fills gain.  All gains are zero when there is none (the output is held). */
-static int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, pcl2_real *gain,
+/* The law of a new model. */
+PCL2_INLINE int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, pcl2_real *gain,
                           pcl2_real *work)
 {
-    const int32_t nq = (z.na > z.nb - 1 + z.d) ? z.na : z.nb - 1 + z.d;
-    pcl2_real *const c = work;
+    pcl2_real *const c = work + gpc_reach(z);
     pcl2_real *const g = c + z.n2;
     pcl2_real *const h = g + (z.n2 - z.d);
     pcl2_real *const v = h + z.nu * z.nu;
     pcl2_real *const mu = v + z.nu;
     gpc_responses(z, p, c, g);
     gpc_hessian(z, g, lambda, h);
-    if (gpc_solve(z.nu, h, v) != GPC_OK) {
-        for (int32_t i = 0; i < z.na + z.nb + z.d; ++i) {
-            gain[i] = PCL2_R(0.0);
-        }
+    const pcl2_real scale = gpc_solve(z.nu, h, v);
+    if (!(scale > PCL2_R(0.0))) {
         return GPC_SINGULAR;
     }
-    gain[0] = gpc_setpoint_gain(z, g, v);
-    for (int32_t q = 1; q <= nq; ++q) {
-        mu[q - 1] = (q <= z.n2) ? gpc_weight(z, c, g, v, q) : PCL2_R(0.0);
-    }
+    gpc_weights(z, c, g, v, mu);
+    gain[0] = scale * gpc_setpoint_gain(z, g, v);
+    pcl2_real size = gain[0];
+    GPC_UNROLL
     for (int32_t s = 0; s < z.na; ++s) {
         pcl2_real sum = PCL2_R(0.0);
+        GPC_UNROLL
         for (int32_t q = 1; q <= z.na - s; ++q) {
             sum -= mu[q - 1] * p[q + s - 1];
         }
-        gain[1 + s] = sum;
+        gain[1 + s] = scale * sum;
+        size += pcl2_fabs(gain[1 + s]);
     }
+    GPC_UNROLL
     for (int32_t s = 1; s <= z.nb - 1 + z.d; ++s) {
         pcl2_real sum = PCL2_R(0.0);
+        GPC_UNROLL
         for (int32_t m = (s > z.d) ? s - z.d : 0; m < z.nb; ++m) {
             sum -= mu[m + z.d - s] * p[z.na + m];
         }
-        gain[z.na + s] = sum;
+        gain[z.na + s] = scale * sum;
+        size += pcl2_fabs(gain[z.na + s]);
     }
-    return GPC_OK;
+    return pcl2_is_bad(size) ? GPC_SINGULAR : GPC_OK;
 }
 
 /* NaN differs from itself, so a bad model is designed anew each scan and never taken as unchanged. */
-static inline int gpc_changed(int32_t n, const pcl2_real *p, const pcl2_real *model)
+PCL2_INLINE int32_t gpc_changed(int32_t n, const pcl2_real *p, const pcl2_real *model)
 {
+    PCL2_UNROLL
     for (int32_t i = 0; i < n; ++i) {
         if (p[i] != model[i]) {
             return 1;
@@ -194,9 +245,17 @@ static inline int gpc_changed(int32_t n, const pcl2_real *p, const pcl2_real *mo
     return 0;
 }
 
-static int32_t gpc_redesign(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, struct gpc_state at)
+/* Without a law all gains are zero, which holds the output, and the design is tried again each scan. */
+PCL2_INLINE int32_t gpc_redesign(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, struct gpc_state at)
 {
     const int32_t status = gpc_design(z, p, lambda, at.gain, at.work);
+    if (status != GPC_OK) {
+        GPC_UNROLL
+        for (int32_t i = 0; i < z.na + z.nb + z.d; ++i) {
+            at.gain[i] = PCL2_R(0.0);
+        }
+    }
+    GPC_UNROLL
     for (int32_t i = 0; i < z.na + z.nb; ++i) {
         at.model[i] = p[i];
     }
@@ -204,67 +263,98 @@ static int32_t gpc_redesign(struct gpc_size z, const pcl2_real *p, pcl2_real lam
     return status;
 }
 
-/* Applies u and lets it and the measured y into the history. */
-static inline void gpc_apply(struct gpc_size z, struct gpc_state at, pcl2_real y, pcl2_real u)
+/* Differences of y in the past. */
+PCL2_INLINE int32_t gpc_kept(struct gpc_size z)
 {
-    const int32_t ny = (z.na > 0) ? z.na - 1 : 0;
-    const int32_t nu = z.nb - 1 + z.d;
-    for (int32_t i = ny + nu; i > ny + 1; --i) {
-        at.past[i] = at.past[i - 1];
-    }
-    if (nu > 0) {
-        at.past[ny + 1] = u - *at.u;
-    }
-    for (int32_t i = ny; i > 1; --i) {
+    return (z.na > 0) ? z.na - 1 : 0;
+}
+
+/* Lets a measured y into the history. */
+PCL2_INLINE void gpc_measured(struct gpc_size z, struct gpc_state at, pcl2_real y)
+{
+    const int32_t ny = gpc_kept(z);
+    PCL2_UNROLL
+    for (int32_t i = ny - 1; i > 0; --i) {
         at.past[i] = at.past[i - 1];
     }
     if (ny > 0) {
-        at.past[1] = y - at.past[0];
+        at.past[0] = y - *at.y1;
     }
-    at.past[0] = y;
+    *at.y1 = y;
+}
+
+/* Applies u and lets its increment into the history. */
+PCL2_INLINE void gpc_apply(struct gpc_size z, struct gpc_state at, pcl2_real u)
+{
+    const int32_t ny = gpc_kept(z);
+    const int32_t nu = z.nb - 1 + z.d;
+    PCL2_UNROLL
+    for (int32_t i = ny + nu - 1; i > ny; --i) {
+        at.past[i] = at.past[i - 1];
+    }
+    if (nu > 0) {
+        at.past[ny] = u - *at.u;
+    }
     *at.u = u;
 }
 
-static inline pcl2_real gpc_move(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y)
+/* The output of the law before its limits.  What y enters comes last, so that it waits for nothing else. */
+PCL2_INLINE pcl2_real gpc_law(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y)
 {
-    const int32_t known = (z.na > 0) ? z.na + z.nb - 1 + z.d : z.nb + z.d;
-    const int32_t shift = (z.na > 0) ? 1 : 0;
-    pcl2_real move = at.gain[0] * (w - y);
-    if (z.na > 0) {
-        move += at.gain[1] * (y - at.past[0]);
+    const int32_t known = gpc_kept(z) + z.nb - 1 + z.d;
+    const pcl2_real *const gain = at.gain + ((z.na > 0) ? 2 : 1);
+    const pcl2_real error = at.gain[0] * (w - y);
+    pcl2_real sum = *at.u;
+    PCL2_UNROLL
+    for (int32_t i = 0; i < known; ++i) {
+        sum += gain[i] * at.past[i];
     }
-    for (int32_t i = 1; i < known; ++i) {
-        move += at.gain[i + shift] * at.past[i];
-    }
-    return move;
+    return sum + ((z.na > 0) ? error + at.gain[1] * (y - *at.y1) : error);
 }
 
-/* One scan.  umin and umax bound the applied increment, which is what enters the history. */
-static inline void gpc_scan(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y,
-                            const pcl2_real *p, pcl2_real sw, pcl2_real u0, pcl2_real umin,
-                            pcl2_real umax, pcl2_real lambda)
+/* The first good y stands for every y before it; 0 while there was none. */
+PCL2_INLINE int32_t gpc_start(struct gpc_state at, pcl2_real y)
 {
-    int32_t status = GPC_OK;
     if (*at.started == 0 && !pcl2_is_bad(y)) {
-        at.past[0] = y;
+        *at.y1 = y;
         *at.started = 1;
     }
+    return *at.started;
+}
+
+/* Manual: u follows u0, a bad y is taken as unchanged. */
+PCL2_INLINE void gpc_manual(struct gpc_size z, struct gpc_state at, pcl2_real y, pcl2_real u)
+{
+    const int32_t bad = pcl2_is_bad(y);
+    (void)gpc_start(at, y);
+    *at.status = bad ? GPC_SIGNAL : GPC_OK;
+    gpc_measured(z, at, bad ? *at.y1 : y);
+    gpc_apply(z, at, u);
+}
+
+/* One scan.  umin and umax bound the applied increment, which is what enters the history.  The test for a
+ * bad w or y is that of their difference; y enters the history before u is known, which keeps gcc from
+ * storing both at once and the next scan from waiting for it. */
+PCL2_INLINE void gpc_scan(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y,
+                          const pcl2_real *p, pcl2_real sw, pcl2_real u0, pcl2_real umin,
+                          pcl2_real umax, pcl2_real lambda)
+{
+    *at.status = GPC_OK;
     if (sw != PCL2_R(0.0) && !pcl2_is_bad(sw)) {
-        const int bad = pcl2_is_bad(y);
-        *at.status = bad ? GPC_SIGNAL : GPC_OK;
-        gpc_apply(z, at, bad ? at.past[0] : y, gpc_clamp(u0, umin, umax));
+        gpc_manual(z, at, y, gpc_clamp(u0, umin, umax));
         return;
     }
-    if (lambda != *at.designed || gpc_changed(z.na + z.nb, p, at.model)) {
-        status = gpc_redesign(z, p, lambda, at);
-    }
-    const pcl2_real move = gpc_move(z, at, w, y);
-    if (pcl2_is_bad(move)) {
+    if (pcl2_is_bad(w - y)) {
         *at.status = GPC_SIGNAL;
         return;
     }
-    *at.status = status;
-    gpc_apply(z, at, y, gpc_clamp(*at.u + move, umin, umax));
+    if (lambda != *at.designed || gpc_changed(z.na + z.nb, p, at.model)) {
+        (void)gpc_start(at, y);
+        *at.status = gpc_redesign(z, p, lambda, at);
+    }
+    const pcl2_real u = gpc_law(z, at, w, y);
+    gpc_measured(z, at, y);
+    gpc_apply(z, at, gpc_clamp(u, umin, umax));
 }
 
 PCL2_KERNEL void pcl2_gpc1_init(struct pcl2_gpc1 *self, int32_t d, int32_t N2, int32_t Nu,
@@ -290,7 +380,7 @@ PCL2_KERNEL void pcl2_gpc1(struct pcl2_gpc1 *self, pcl2_real w, pcl2_real y, con
                            pcl2_real *gain, pcl2_real *past, pcl2_real *work)
 {
     const struct gpc_size size = {1, 1, d, N2, Nu};
-    const struct gpc_state at = {&self->designed, &self->started, &self->status, &self->u,
+    const struct gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
                                  model, gain, past, work};
     gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
@@ -318,7 +408,7 @@ PCL2_KERNEL void pcl2_gpc2(struct pcl2_gpc2 *self, pcl2_real w, pcl2_real y, con
                            pcl2_real *gain, pcl2_real *past, pcl2_real *work)
 {
     const struct gpc_size size = {2, 2, d, N2, Nu};
-    const struct gpc_state at = {&self->designed, &self->started, &self->status, &self->u,
+    const struct gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
                                  model, gain, past, work};
     gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
@@ -348,7 +438,9 @@ PCL2_KERNEL void pcl2_gpcn(struct pcl2_gpcn *self, pcl2_real w, pcl2_real y, con
                            pcl2_real *gain, pcl2_real *past, pcl2_real *work)
 {
     const struct gpc_size size = {nA - 1, nB, d, N2, Nu};
-    const struct gpc_state at = {&self->designed, &self->started, &self->status, &self->u,
+    const struct gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
                                  model, gain, past, work};
     gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
+
+#undef GPC_UNROLL
