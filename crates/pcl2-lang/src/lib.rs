@@ -16,6 +16,7 @@ pub mod model;
 pub mod program;
 pub mod render;
 pub mod source;
+pub mod suggest;
 pub mod symbol;
 pub mod syntax;
 pub mod types;

@@ -1,0 +1,96 @@
+//! The `.cfg` front end: a tree of statements becomes a [`Program`].
+//!
+//! The passes run in this order; after each one the sentence beside it is true.
+//! 1. `sections`: every statement stands in a section.
+//! 2. `bind`: every statement has a declaration, its constants, and an operand for each port.
+//! 3. `number`: every block has its number, and blocks stand in order of execution.
+//! 4. `signals`: every output has a signal, every port a source.
+//! 5. `sizes`: every size and type is known, and wires fit their ports.
+//! 6. `params`: every parameter has its value, in its range.
+//! 7. `order`: delays are known.
+//!
+//! What is wrong is reported once and marked as spoiled; nothing that depends on it is checked.
+
+mod bind;
+mod composite;
+mod draft;
+mod files;
+mod number;
+mod order;
+mod params;
+mod sections;
+mod signals;
+mod sizes;
+
+pub use files::{FileText, wanted_files};
+
+use draft::Scope;
+use pcl2_lang::catalogue::Catalogue;
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::program::Program;
+use pcl2_lang::source::{FileId, Sources};
+use pcl2_lang::symbol::Symbols;
+use pcl2_lang::syntax::Tree;
+use pcl2_lang::types::Width;
+use rustc_hash::FxHashMap;
+
+/// What the command line and the project file decide about a program.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The C name.
+    pub name: String,
+    /// The scan period in nanoseconds, if known.
+    pub period: Option<i64>,
+    /// The width of reals.
+    pub width: Width,
+    /// Numbers of blocks that stand for the plant (`--plant`).
+    pub plant: Vec<u32>,
+    /// PLANT's runs in each scan.
+    pub substeps: u32,
+    /// Which blocks keep their parameters in RAM.
+    pub tunable: Tunable,
+}
+
+/// Which blocks keep their parameters in RAM.
+#[derive(Clone, Debug, Default)]
+pub enum Tunable {
+    /// Every block.
+    #[default]
+    All,
+    /// No block.
+    None,
+    /// Blocks whose identity matches one of these patterns; `*` stands for any run of characters.
+    Names(Vec<String>),
+}
+
+/// What a compilation reads.
+pub struct Input<'a> {
+    /// All texts.
+    pub sources: &'a Sources,
+    /// The source's file.
+    pub file: FileId,
+    /// Its statements.
+    pub tree: &'a Tree,
+    /// All names.
+    pub symbols: &'a Symbols,
+    /// The known function codes.
+    pub catalogue: &'a Catalogue,
+    /// The parameter files that [`wanted_files`] asked for, by their name in the source.
+    pub files: &'a FxHashMap<String, FileText>,
+    /// What was decided elsewhere.
+    pub options: &'a Options,
+}
+
+/// Compiles a tree. `None` when there are errors.
+pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Program> {
+    let sectioned = sections::read(input, diagnostics);
+    let mut scope = Scope::program(input, &sectioned);
+    let mut composites = composite::Composites::default();
+    draft::complete(input, &mut scope, &mut composites, diagnostics);
+    sections::check_contents(&sectioned, &scope, diagnostics);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return None;
+    }
+    let delays = order::delays(&sectioned, &scope, diagnostics);
+    Some(draft::seal(input, &sectioned, scope, composites, delays))
+}

@@ -1,0 +1,93 @@
+//! Pass 3: the number of each block; blocks then stand in order of execution.
+
+use crate::Input;
+use crate::draft::{Draft, ENOUGH, Scope};
+use pcl2_lang::codes;
+use pcl2_lang::decl::Decl;
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::kernel;
+use rustc_hash::FxHashMap;
+
+/// The largest block number.
+const MAX_NUMBER: u32 = i32::MAX as u32;
+
+/// The port that is reached by name only.
+pub(crate) const RETURN_PORT: &str = "bk";
+
+/// Numbers the blocks of a scope and sorts them by section and number.
+pub(crate) fn number<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
+    let mut last: Option<u32> = None;
+    for draft in &mut scope.drafts {
+        draft.number = match draft.statement.number {
+            Some((number, _)) => number,
+            None => {
+                if draft.statement.outputs.is_empty() {
+                    diagnostics.push(
+                        Diagnostic::new(codes::UNKNOWN_NUMBER, draft.statement.code.span, "expected a number or an output name before `=`, found neither")
+                            .help("a block without a number has a name, so that others can refer to it"),
+                    );
+                    draft.spoiled = true;
+                }
+                last.map_or(1, |last| last.saturating_add(1))
+            }
+        };
+        let end = u64::from(draft.number) + u64::from(numbered_ports(draft).max(1)) - 1;
+        if end > u64::from(MAX_NUMBER) && !draft.spoiled {
+            let message = format!("expected port numbers up to {MAX_NUMBER}, found {end}");
+            diagnostics.push(Diagnostic::new(codes::NUMBER_RANGE, draft.statement.span, message));
+            draft.spoiled = true;
+        }
+        last = Some(end.min(u64::from(MAX_NUMBER)) as u32);
+    }
+    check_overlap(input, scope, diagnostics);
+    scope.drafts.sort_by_key(|draft| (draft.section, draft.number));
+}
+
+/// How many numbers the block takes: a block without names takes one for each output.
+pub(crate) fn numbered_ports(draft: &Draft<'_>) -> u32 {
+    match draft.decl {
+        Some(decl) if draft.statement.outputs.is_empty() => {
+            let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
+            output_names(decl, &sizes).iter().filter(|name| *name != RETURN_PORT).count() as u32
+        }
+        _ => 1,
+    }
+}
+
+/// The names of a code's outputs, groups expanded: `y1`, `y2`, ..
+pub(crate) fn output_names(decl: &Decl, sizes: &[i32]) -> Vec<String> {
+    let mut names = Vec::new();
+    for output in &decl.outputs {
+        match &output.group {
+            None => names.push(output.name.clone()),
+            Some(group) => {
+                let count = kernel::count(Some(group), sizes).unwrap_or(0);
+                names.extend((1..=count).map(|i| format!("{}{i}", output.name)));
+            }
+        }
+    }
+    names
+}
+
+fn check_overlap(_input: &Input<'_>, scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let mut taken: FxHashMap<u32, usize> = FxHashMap::default();
+    taken.reserve(scope.drafts.len());
+    for i in 0..scope.drafts.len() {
+        if diagnostics.len() > ENOUGH {
+            return;
+        }
+        let (first, count) = (scope.drafts[i].number, numbered_ports(&scope.drafts[i]).max(1));
+        for number in (first..=MAX_NUMBER).take(count as usize) {
+            let Some(other) = taken.insert(number, i) else {
+                continue;
+            };
+            let (draft, other) = (&scope.drafts[i], &scope.drafts[other]);
+            let place = |draft: &Draft<'_>| draft.statement.number.map_or(draft.statement.code.span, |(_, span)| span);
+            let message = format!("expected a free block number, found {number} a second time");
+            let label = if other.number == number { "the first block with it" } else { "an output of this block has it" };
+            let report = Diagnostic::new(codes::NUMBER_TAKEN, place(draft), message).label(place(other), label);
+            diagnostics.push(report.help("give one of them another number; a number is also the place in the order of execution"));
+            break;
+        }
+    }
+}

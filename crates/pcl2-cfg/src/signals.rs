@@ -1,0 +1,326 @@
+//! Pass 4: a signal for each output, a source for each port.
+
+use crate::Input;
+use crate::draft::{Draft, ENOUGH, Scope, Wire, tracked};
+use crate::number::{RETURN_PORT, output_names};
+use pcl2_lang::ast::{Item as Place, Name, Number, Operand, Output};
+use pcl2_lang::codes;
+use pcl2_lang::decl::{Decl, PortDecl};
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::kernel;
+use pcl2_lang::program::{BlockId, Cell, CellId, Role, SignalId, Source, Writer};
+use pcl2_lang::source::Span;
+use pcl2_lang::suggest;
+use pcl2_lang::types::{Real, Type, Value};
+
+/// Connects outputs and ports of a scope.
+pub(crate) fn connect<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
+    own_ports(scope, input);
+    let mut order: Vec<usize> = (0..scope.drafts.len()).collect();
+    let initialize = |section: u32| u32::from(section != 0 || !has_initialize(input, scope));
+    order.sort_by_key(|i| (initialize(scope.drafts[*i].section), scope.drafts[*i].number));
+    for i in order {
+        outputs(input, scope, i, diagnostics);
+    }
+    for i in 0..scope.drafts.len() {
+        if diagnostics.len() > ENOUGH {
+            return;
+        }
+        Wirer { input, scope, diagnostics, block: i }.ports();
+    }
+}
+
+fn has_initialize(input: &Input<'_>, scope: &Scope<'_>) -> bool {
+    use pcl2_lang::ast::Line;
+    scope.owner.is_none() && input.tree.lines.iter().any(|line| matches!(line, Line::Initialize(_)))
+}
+
+/// A composite's own ports are signals without a writer.
+fn own_ports<'a>(scope: &mut Scope<'a>, input: &Input<'a>) {
+    let Some((decl, sizes)) = scope.owner.clone() else {
+        return;
+    };
+    let mut index = 0;
+    for port in decl.ports() {
+        for i in 0..kernel::count(port.group.as_ref(), &sizes).unwrap_or(0) {
+            let name = if port.group.is_some() { format!("{}{}", port.name, i + 1) } else { port.name.clone() };
+            let id = SignalId(scope.wires.len() as u32);
+            if let Some(symbol) = input.symbols.find(&name) {
+                scope.by_name.insert(symbol, id);
+            }
+            scope.wires.push(Wire {
+                name,
+                ty: kernel::resolve(&port.ty, &sizes),
+                spoiled: false,
+                writers: Vec::new(),
+                role: Role::Port(index),
+                span: decl.span,
+            });
+            index += 1;
+        }
+    }
+}
+
+fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+    let draft = &scope.drafts[index];
+    let statement = draft.statement;
+    let Some(decl) = draft.decl else {
+        spoil_names(scope, index);
+        return;
+    };
+    let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
+    let names = output_names(decl, &sizes);
+    if statement.outputs.len() > names.len() {
+        let message = format!("expected at most {} of {}, found {}", count_word(names.len(), "output"), decl.name, statement.outputs.len());
+        diagnostics.push(Diagnostic::new(codes::OUTPUT_COUNT, statement.outputs[names.len()].span(), message));
+        scope.drafts[index].spoiled = true;
+    }
+    let tag = match (&statement.outputs[..], names.len()) {
+        ([Output::Name(name)], _) => Some(*name),
+        _ => None,
+    };
+    if let Some(tag) = tag {
+        scope.tags.entry(tag.symbol).or_insert(BlockId(index as u32));
+    }
+    let mut number = scope.drafts[index].number;
+    for (o, port) in names.iter().enumerate() {
+        let id = match (statement.outputs.get(o), tag) {
+            (Some(Output::Name(name)), _) => named(input, scope, *name),
+            (None, Some(tag)) => push_wire(scope, format!("{}.{port}", input.symbols.text(tag.symbol)), tag.span),
+            (Some(Output::Discard(span)), _) => push_wire(scope, String::new(), *span),
+            (None, None) if statement.outputs.is_empty() && port != RETURN_PORT => {
+                let id = push_wire(scope, number.to_string(), statement.code.span);
+                scope.by_number.insert(number, (BlockId(index as u32), o as u32));
+                number = number.saturating_add(1);
+                id
+            }
+            (None, None) => push_wire(scope, String::new(), statement.code.span),
+        };
+        let inout = declared_inout(decl, &sizes, o);
+        let wire = &mut scope.wires[id.0 as usize];
+        wire.spoiled |= scope.drafts[index].spoiled;
+        wire.writers.push(Writer { block: BlockId(index as u32), output: o as u32, inout });
+        scope.drafts[index].outputs.push(id);
+    }
+    let number = scope.drafts[index].number;
+    scope.by_number.entry(number).or_insert((BlockId(index as u32), 0));
+}
+
+fn declared_inout(decl: &Decl, sizes: &[i32], expanded: usize) -> bool {
+    pcl2_lang::model::output_decl(decl, sizes, expanded).is_some_and(|index| decl.outputs[index].inout)
+}
+
+fn spoil_names(scope: &mut Scope<'_>, index: usize) {
+    let draft = &scope.drafts[index];
+    let names: Vec<Name> = draft
+        .statement
+        .outputs
+        .iter()
+        .filter_map(|output| match output {
+            Output::Name(name) => Some(*name),
+            Output::Discard(_) => None,
+        })
+        .collect();
+    let number = draft.number;
+    scope.spoiled.extend(names.iter().map(|name| name.symbol));
+    scope.spoiled_numbers.insert(number);
+}
+
+fn named(input: &Input<'_>, scope: &mut Scope<'_>, name: Name) -> SignalId {
+    if let Some(id) = scope.by_name.get(&name.symbol) {
+        return *id;
+    }
+    let id = push_wire(scope, input.symbols.text(name.symbol).to_owned(), name.span);
+    scope.by_name.insert(name.symbol, id);
+    id
+}
+
+fn push_wire(scope: &mut Scope<'_>, name: String, span: Span) -> SignalId {
+    let id = SignalId(scope.wires.len() as u32);
+    scope.wires.push(Wire { name, ty: None, spoiled: false, writers: Vec::new(), role: Role::Wire, span });
+    id
+}
+
+fn count_word(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
+struct Wirer<'w, 'a> {
+    input: &'w Input<'a>,
+    scope: &'w mut Scope<'a>,
+    diagnostics: &'w mut Vec<Diagnostic>,
+    block: usize,
+}
+
+impl<'a> Wirer<'_, 'a> {
+    fn ports(&mut self) {
+        let draft = &self.scope.drafts[self.block];
+        let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
+            return;
+        };
+        let operands = draft.operands.clone();
+        let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
+        let mut sources = Vec::with_capacity(operands.len());
+        let mut next = 0;
+        for port in decl.ports() {
+            for _ in 0..kernel::count(port.group.as_ref(), &sizes).unwrap_or(0) {
+                let operand = operands.get(next).copied().flatten();
+                match self.source(decl, port, next as u32, operand) {
+                    Some(source) => sources.push(source),
+                    None => self.scope.drafts[self.block].spoiled = true,
+                }
+                next += 1;
+            }
+        }
+        self.scope.drafts[self.block].sources = sources;
+    }
+
+    fn source(&mut self, decl: &Decl, port: &PortDecl, index: u32, operand: Option<&Place>) -> Option<Source> {
+        let Some(place) = operand else {
+            return self.unconnected(decl, port, index);
+        };
+        match &place.value {
+            Operand::Empty | Operand::Text(_) => {
+                let message = format!("expected a variable or a block number for input `{}`, found a string", port.name);
+                self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, place.span, message));
+                None
+            }
+            Operand::Name(name) => self.name(port, *name),
+            Operand::Element(name, indexes) => self.element(*name, indexes),
+            Operand::Member(tag, member) => self.member(*tag, *member),
+            Operand::Number(Number::Int(number)) => self.number(port, *number, place.span),
+            Operand::Number(Number::Real(_)) => {
+                let text = self.input.sources.text(place.span);
+                let message = format!("expected a variable or a block number for input `{}`, found the real `{text}`", port.name);
+                let help = format!("put the number on a wire: `c = msc ( : {text} )`, and use c here");
+                self.diagnostics.push(Diagnostic::new(codes::REAL_IN_PORT, place.span, message).help(help));
+                None
+            }
+        }
+    }
+
+    /// An empty port: an operator cell, or the default.
+    fn unconnected(&mut self, decl: &Decl, port: &PortDecl, index: u32) -> Option<Source> {
+        let default = port.default.clone()?;
+        let sizes: Vec<i32> = self.scope.drafts[self.block].sizes.iter().map(|size| size.unwrap_or(0)).collect();
+        let ty = kernel::resolve(&port.ty, &sizes)?;
+        let value = spread(default, ty);
+        if !port.cell || self.scope.owner.is_some() {
+            return Some(Source::Constant(value));
+        }
+        let draft = &self.scope.drafts[self.block];
+        let tag = draft.outputs.first().map(|id| self.scope.wire(*id).name.clone()).filter(|name| !name.is_empty());
+        let tag = tag.unwrap_or_else(|| draft.number.to_string());
+        let id = CellId(self.scope.cells.len() as u32);
+        self.scope.cells.push(Cell {
+            block: BlockId(self.block as u32),
+            port: index,
+            name: format!("{tag}.{}", port.name),
+            ty,
+            initial: value,
+            tracks: port.tracks.as_deref().and_then(|name| tracked(decl, &sizes, name)),
+        });
+        Some(Source::Cell(id))
+    }
+
+    fn name(&mut self, port: &PortDecl, name: Name) -> Option<Source> {
+        if let Some(id) = self.scope.by_name.get(&name.symbol) {
+            return Some(Source::Signal(*id));
+        }
+        let text = self.input.symbols.text(name.symbol);
+        if let Some(value) = port.tail.names.iter().position(|known| known == text) {
+            return Some(Source::Constant(Value::Int(value as i32)));
+        }
+        self.unknown_variable(name);
+        None
+    }
+
+    fn unknown_variable(&mut self, name: Name) {
+        if self.scope.spoiled.contains(&name.symbol) {
+            return;
+        }
+        let text = self.input.symbols.text(name.symbol);
+        let message = format!("expected a variable that a block writes, found `{text}`");
+        let known = self.scope.wires.iter().map(|wire| wire.name.as_str()).filter(|name| !name.is_empty());
+        let report = Diagnostic::new(codes::UNKNOWN_VARIABLE, name.span, message);
+        self.diagnostics.push(match suggest::help(text, known) {
+            Some(help) => report.help(help),
+            None => report.help(format!("no block has `{text}` as an output")),
+        });
+    }
+
+    fn element(&mut self, name: Name, indexes: &[(i32, Span)]) -> Option<Source> {
+        let Some(id) = self.scope.by_name.get(&name.symbol).copied() else {
+            self.unknown_variable(name);
+            return None;
+        };
+        if let Some((_, span)) = indexes.get(2) {
+            let message = format!("expected one or two indexes, found {}", indexes.len());
+            self.diagnostics.push(Diagnostic::new(codes::INDEX_RANGE, *span, message));
+            return None;
+        }
+        // Pass 5 fills in the element, when the type is known.
+        Some(Source::Element(id, 0))
+    }
+
+    fn member(&mut self, tag: Name, member: Name) -> Option<Source> {
+        let Some(block) = self.scope.tags.get(&tag.symbol).copied() else {
+            if self.scope.by_name.contains_key(&tag.symbol) {
+                let text = self.input.symbols.text(tag.symbol);
+                let message = format!("expected the tag of a block, found `{text}`, one of several names");
+                let report = Diagnostic::new(codes::UNKNOWN_MEMBER, tag.span, message);
+                self.diagnostics.push(report.help("a block has a tag when one name stands for all its outputs"));
+            } else {
+                self.unknown_variable(tag);
+            }
+            return None;
+        };
+        let draft = &self.scope.drafts[block.0 as usize];
+        let decl = draft.decl?;
+        let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
+        let names = output_names(decl, &sizes);
+        let text = self.input.symbols.text(member.symbol);
+        if let Some(index) = names.iter().position(|name| name == text) {
+            return draft.outputs.get(index).map(|id| Source::Signal(*id));
+        }
+        let message = format!("expected an output of {}, found `{text}`", decl.name);
+        let help = suggest::help(text, names.iter().map(String::as_str));
+        let help = help.unwrap_or_else(|| format!("its outputs are {}", names.join(", ")));
+        self.diagnostics.push(Diagnostic::new(codes::UNKNOWN_MEMBER, member.span, message).help(help));
+        None
+    }
+
+    fn number(&mut self, port: &PortDecl, number: i32, span: Span) -> Option<Source> {
+        let found = u32::try_from(number).ok().and_then(|number| self.scope.by_number.get(&number).copied());
+        let Some((block, output)) = found else {
+            let spoiled = u32::try_from(number).is_ok_and(|number| self.scope.spoiled_numbers.contains(&number));
+            if !spoiled {
+                let message = format!("expected a variable or the number of a block for input `{}`, found {number}", port.name);
+                let help = format!("no block has the number {number}; for a constant write `c = msc ( : {number}. )`, and use c here");
+                self.diagnostics.push(Diagnostic::new(codes::UNKNOWN_NUMBER, span, message).help(help));
+            }
+            return None;
+        };
+        let draft: &Draft<'_> = &self.scope.drafts[block.0 as usize];
+        if let Some(Output::Name(name)) = draft.statement.outputs.first() {
+            let text = self.input.symbols.text(name.symbol);
+            let message = format!("expected the variable `{text}`, found its block's number {number}");
+            let help = format!("did you mean the constant {number}? Then use `c = msc ( : {number}. )`; else write `{text}`");
+            let report = Diagnostic::new(codes::NUMBER_OF_NAMED, span, message);
+            self.diagnostics.push(report.label(name.span, "the block with this number").help(help));
+        }
+        draft.outputs.get(output as usize).map(|id| Source::Signal(*id))
+    }
+}
+
+/// A default for each element of a port.
+pub(crate) fn spread(value: Value, ty: Type) -> Value {
+    use pcl2_lang::types::{Scalar, Shape};
+    match (value, ty.scalar) {
+        (Value::Int(value), Scalar::Real) => spread(Value::Real(Real::from_int(value)), ty),
+        (value, _) if ty.shape == Shape::Scalar => value,
+        (Value::Real(value), _) => Value::Reals(vec![value; ty.elements()].into()),
+        (Value::Int(value), _) => Value::Ints(vec![value; ty.elements()].into()),
+        (value, _) => value,
+    }
+}

@@ -1,0 +1,416 @@
+//! Pass 5: every size and type; wires fit their ports.
+
+use crate::Input;
+use crate::draft::{Draft, ENOUGH, Scope};
+use pcl2_lang::ast::Operand;
+use pcl2_lang::codes;
+use pcl2_lang::decl::{Decl, Expr, PortDecl, TypeExpr};
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::kernel;
+use pcl2_lang::program::{SignalId, Source};
+use pcl2_lang::source::Span;
+use pcl2_lang::types::{MAX_ELEMENTS, Shape, Type};
+use pcl2_lang::verify::fits;
+
+/// Finds all sizes, then checks all ports.
+pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
+    let mut waiting = writing_order(scope);
+    loop {
+        let before = waiting.len();
+        waiting.retain(|i| diagnostics.len() <= ENOUGH && !settle(input, scope, *i, diagnostics));
+        if waiting.is_empty() || waiting.len() == before {
+            break;
+        }
+        waiting.reverse();
+    }
+    for i in waiting {
+        if diagnostics.len() <= ENOUGH {
+            report_unknown_size(scope, i, diagnostics);
+        }
+    }
+    for i in 0..scope.drafts.len() {
+        if diagnostics.len() > ENOUGH {
+            return;
+        }
+        check_ports(input, scope, i, diagnostics);
+    }
+    check_written(input, scope, diagnostics);
+}
+
+/// The lowest-numbered writer sets the type, INITIALIZE first: the order in which signals got their writers.
+fn writing_order(scope: &Scope<'_>) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..scope.drafts.len()).collect();
+    let first_output = |draft: &Draft<'_>| draft.outputs.first().copied();
+    order.sort_by_key(|i| {
+        let draft = &scope.drafts[*i];
+        let rank = first_output(draft).and_then(|id| {
+            scope.wire(id).writers.iter().position(|writer| writer.block.0 as usize == *i)
+        });
+        (rank.unwrap_or(0), draft.number)
+    });
+    order
+}
+
+/// Tries to find the sizes of a block. `false`: a port's type is still missing.
+fn settle<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnostics: &mut Vec<Diagnostic>) -> bool {
+    let draft = &scope.drafts[index];
+    let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
+        spoil(scope, index);
+        return true;
+    };
+    match infer(scope, decl, index) {
+        Inferred::All(sizes) => scope.drafts[index].sizes = sizes,
+        Inferred::Waiting => return false,
+        Inferred::Spoiled => {
+            spoil(scope, index);
+            return true;
+        }
+    }
+    let sizes = scope.drafts[index].known_sizes().unwrap_or_default();
+    if !check_fields(scope, index, decl, &sizes, diagnostics) {
+        spoil(scope, index);
+        return true;
+    }
+    let mut next = 0;
+    for output in &decl.outputs {
+        for _ in 0..kernel::count(output.group.as_ref(), &sizes).unwrap_or(0) {
+            if let Some(ty) = kernel::resolve(&output.ty, &sizes) {
+                set_type(input, scope, index, next, ty, diagnostics);
+            }
+            next += 1;
+        }
+    }
+    true
+}
+
+enum Inferred {
+    All(Vec<Option<i32>>),
+    Waiting,
+    Spoiled,
+}
+
+/// A size that is no constant comes from the first port that has it alone.
+fn infer(scope: &Scope<'_>, decl: &Decl, index: usize) -> Inferred {
+    let draft = &scope.drafts[index];
+    let mut sizes = draft.sizes.clone();
+    if sizes.iter().all(Option::is_some) {
+        return Inferred::All(sizes);
+    }
+    let known: Vec<i32> = sizes.iter().map(|size| size.unwrap_or(0)).collect();
+    let mut waiting = false;
+    let mut next = 0;
+    for port in decl.ports() {
+        let count = kernel::count(port.group.as_ref(), &known).unwrap_or(0);
+        let source = draft.sources.get(next);
+        next += count;
+        let (Some(source), true) = (source, names_unknown(&port.ty, &sizes)) else {
+            continue;
+        };
+        match source_shape(scope, source) {
+            Found::Type(ty) => take_sizes(&port.ty, ty, &mut sizes),
+            Found::Later => waiting = true,
+            Found::Spoiled => return Inferred::Spoiled,
+        }
+    }
+    match (sizes.iter().all(Option::is_some), waiting) {
+        (true, _) => Inferred::All(sizes),
+        (false, true) => Inferred::Waiting,
+        (false, false) => Inferred::Spoiled,
+    }
+}
+
+fn names_unknown(ty: &TypeExpr, sizes: &[Option<i32>]) -> bool {
+    let unknown = |expr: &Expr| matches!(expr, Expr::Size(i) if sizes.get(*i) == Some(&None));
+    match ty {
+        TypeExpr::Vector(_, n) => unknown(n),
+        TypeExpr::Matrix(_, r, c) => unknown(r) || unknown(c),
+        TypeExpr::Scalar(_) | TypeExpr::Text | TypeExpr::Time => false,
+    }
+}
+
+fn take_sizes(declared: &TypeExpr, found: Type, sizes: &mut [Option<i32>]) {
+    let (rows, columns) = found.rows_columns();
+    let mut take = |expr: &Expr, value: u32| {
+        if let Expr::Size(i) = expr {
+            let size = &mut sizes[*i];
+            *size = size.or(i32::try_from(value).ok());
+        }
+    };
+    match declared {
+        TypeExpr::Vector(_, n) => take(n, rows.saturating_mul(columns)),
+        TypeExpr::Matrix(_, r, c) => {
+            take(r, rows);
+            take(c, columns);
+        }
+        TypeExpr::Scalar(_) | TypeExpr::Text | TypeExpr::Time => {}
+    }
+}
+
+enum Found {
+    Type(Type),
+    Later,
+    Spoiled,
+}
+
+fn source_shape(scope: &Scope<'_>, source: &Source) -> Found {
+    let of = |id: &SignalId| {
+        let wire = scope.wire(*id);
+        match wire.ty {
+            _ if wire.spoiled => Found::Spoiled,
+            Some(ty) => Found::Type(ty),
+            None => Found::Later,
+        }
+    };
+    match source {
+        Source::Signal(id) | Source::Copied(id) => of(id),
+        Source::Element(id, _) => match of(id) {
+            Found::Type(ty) => Found::Type(Type { scalar: ty.scalar, shape: Shape::Scalar }),
+            other => other,
+        },
+        Source::Constant(value) => Found::Type(constant_type(value)),
+        Source::Cell(id) => Found::Type(scope.cells[id.0 as usize].ty),
+    }
+}
+
+fn constant_type(value: &pcl2_lang::types::Value) -> Type {
+    use pcl2_lang::types::{Scalar, Value};
+    match value {
+        Value::Int(_) | Value::Text(_) => Type::INT,
+        Value::Real(_) => Type::REAL,
+        Value::Ints(values) => Type { scalar: Scalar::Int, shape: Shape::Vector(values.len() as u32) },
+        Value::Reals(values) => Type { scalar: Scalar::Real, shape: Shape::Vector(values.len() as u32) },
+    }
+}
+
+/// All variables and all memory of the block must have a size that can be.
+fn check_fields(scope: &Scope<'_>, index: usize, decl: &Decl, sizes: &[i32], diagnostics: &mut Vec<Diagnostic>) -> bool {
+    let fields = decl.memory.iter().chain(&decl.work).chain(&decl.tuned).map(|field| (&field.name, &field.ty));
+    let places = decl.outputs.iter().map(|output| (&output.name, &output.ty));
+    let params = decl.params.iter().map(|param| (&param.name, &param.ty));
+    let ports = decl.ports().map(|port| (&port.name, &port.ty));
+    for (name, ty) in places.chain(params).chain(ports).chain(fields) {
+        let sized = matches!(ty, TypeExpr::Text | TypeExpr::Time) || kernel::resolve(ty, sizes).is_some();
+        if !sized {
+            let draft = &scope.drafts[index];
+            let message = format!(
+                "expected `{name}` of {} with 0 to {MAX_ELEMENTS} elements, found {}",
+                decl.name,
+                size_text(ty, sizes)
+            );
+            diagnostics.push(Diagnostic::new(codes::TOO_LARGE, draft.statement.code.span, message));
+            return false;
+        }
+    }
+    true
+}
+
+fn size_text(ty: &TypeExpr, sizes: &[i32]) -> String {
+    let value = |expr: &Expr| kernel::size(expr, sizes).map_or("an overflow".to_owned(), |n| n.to_string());
+    match ty {
+        TypeExpr::Vector(_, n) => value(n),
+        TypeExpr::Matrix(_, r, c) => format!("{} x {}", value(r), value(c)),
+        TypeExpr::Scalar(_) | TypeExpr::Text | TypeExpr::Time => "1".to_owned(),
+    }
+}
+
+fn set_type<'a>(
+    input: &Input<'a>,
+    scope: &mut Scope<'a>,
+    index: usize,
+    output: usize,
+    ty: Type,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let Some(id) = scope.drafts[index].outputs.get(output).copied() else {
+        return;
+    };
+    let wire = &mut scope.wires[id.0 as usize];
+    match wire.ty {
+        None => wire.ty = Some(ty),
+        Some(known) if known == ty || wire.spoiled => {}
+        Some(known) => {
+            let first = wire.writers.first().map(|writer| writer.block.0 as usize).filter(|first| *first != index);
+            let name = wire.name.clone();
+            wire.spoiled = true;
+            let draft = &scope.drafts[index];
+            let at = draft.statement.outputs.get(output).map_or(draft.statement.code.span, |o| o.span());
+            let message = format!("{}: expected {known} for `{name}`, as it is elsewhere, found {ty}", draft.title());
+            let report = Diagnostic::new(codes::TYPE_DIFFERS, at, message);
+            let report = match first.map(|first| &scope.drafts[first]) {
+                Some(first) => report.label(writer_span(first, id), format!("{} makes it {known}", first.title())),
+                None => report,
+            };
+            diagnostics.push(report.help("a variable has one type and size in the whole file"));
+            let _ = input;
+        }
+    }
+}
+
+fn writer_span(draft: &Draft<'_>, id: SignalId) -> Span {
+    let output = draft.outputs.iter().position(|output| *output == id).unwrap_or(0);
+    draft.statement.outputs.get(output).map_or(draft.statement.code.span, |output| output.span())
+}
+
+fn spoil(scope: &mut Scope<'_>, index: usize) {
+    scope.drafts[index].spoiled = true;
+    for id in scope.drafts[index].outputs.clone() {
+        scope.wires[id.0 as usize].spoiled = true;
+    }
+}
+
+fn report_unknown_size(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+    let draft = &scope.drafts[index];
+    let Some(decl) = draft.decl else {
+        return;
+    };
+    let missing = draft.sizes.iter().position(Option::is_none).map_or("", |i| decl.sizes[i].name.as_str());
+    let message = format!("{}: expected ports that tell the size `{missing}` of {}, found a loop of blocks that wait for each other", draft.title(), decl.name);
+    let report = Diagnostic::new(codes::UNKNOWN_SIZE, draft.statement.code.span, message);
+    diagnostics.push(report.help("set one variable of the loop in INITIALIZE, for instance with setmat"));
+    spoil(scope, index);
+}
+
+fn check_ports<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+    let draft = &scope.drafts[index];
+    let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
+        return;
+    };
+    let Some(sizes) = draft.known_sizes() else {
+        return;
+    };
+    let mut next = 0;
+    for port in decl.ports() {
+        let want = kernel::resolve(&port.ty, &sizes);
+        for _ in 0..kernel::count(port.group.as_ref(), &sizes).unwrap_or(0) {
+            if let Some(want) = want {
+                check_port(input, scope, index, next, port, want, diagnostics);
+            }
+            next += 1;
+        }
+    }
+}
+
+fn check_port<'a>(
+    input: &Input<'a>,
+    scope: &mut Scope<'a>,
+    index: usize,
+    next: usize,
+    port: &PortDecl,
+    want: Type,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let Some(source) = scope.drafts[index].sources.get(next).cloned() else {
+        return;
+    };
+    let operand = scope.drafts[index].operands.get(next).copied().flatten();
+    let Found::Type(mut found) = source_shape(scope, &source) else {
+        return;
+    };
+    if let (Source::Element(id, _), Some(place)) = (&source, operand) {
+        let Some(whole) = scope.wire(*id).ty else {
+            return;
+        };
+        let Some(element) = element(scope, *id, whole, &place.value, diagnostics) else {
+            scope.drafts[index].spoiled = true;
+            return;
+        };
+        scope.drafts[index].sources[next] = Source::Element(*id, element);
+        found = Type { scalar: whole.scalar, shape: Shape::Scalar };
+    }
+    if let Source::Signal(id) = source {
+        if !found.is_scalar() && scope.drafts[index].outputs.contains(&id) {
+            scope.drafts[index].sources[next] = Source::Copied(id);
+        }
+    }
+    if !fits(found, want) && !matches!(source, Source::Constant(_)) {
+        let report = misfit(input, scope, index, port, (want, found), &source, operand.map(|place| place.span));
+        diagnostics.push(report);
+        scope.drafts[index].spoiled = true;
+    }
+}
+
+/// The flat place of `a[1]` or `m[1,2]`.
+fn element(scope: &Scope<'_>, id: SignalId, whole: Type, operand: &Operand, diagnostics: &mut Vec<Diagnostic>) -> Option<u32> {
+    let Operand::Element(name, indexes) = operand else {
+        return None;
+    };
+    let wire = scope.wire(id);
+    let mut complain = |span: Span, message: String| {
+        diagnostics.push(Diagnostic::new(codes::INDEX_RANGE, span, message).label(wire.span, format!("`{}` is {whole}", wire.name)));
+    };
+    let dimensions: &[u32] = match whole.shape {
+        Shape::Scalar => &[],
+        Shape::Vector(n) => &[n],
+        Shape::Matrix(r, c) => &[r, c],
+    };
+    if dimensions.len() != indexes.len() {
+        let message = match dimensions.len() {
+            0 => format!("expected `{}` without an index, found one", wire.name),
+            n => format!("expected {n} index{} for `{}`, found {}", if n == 1 { "" } else { "es" }, wire.name, indexes.len()),
+        };
+        complain(name.span, message);
+        return None;
+    }
+    let mut flat = 0;
+    for ((index, span), dimension) in indexes.iter().zip(dimensions) {
+        let Some(zero_based) = u32::try_from(*index).ok().and_then(|i| i.checked_sub(1)).filter(|i| i < dimension) else {
+            complain(*span, format!("expected an index from 1 to {dimension}, found {index}"));
+            return None;
+        };
+        flat = flat * dimension + zero_based;
+    }
+    Some(flat)
+}
+
+fn misfit<'a>(
+    input: &Input<'a>,
+    scope: &Scope<'a>,
+    index: usize,
+    port: &PortDecl,
+    (want, found): (Type, Type),
+    source: &Source,
+    place: Option<Span>,
+) -> Diagnostic {
+    let draft = &scope.drafts[index];
+    let code = draft.decl.map_or("", |decl| decl.name.as_str());
+    let span = place.unwrap_or(draft.statement.code.span);
+    let text = input.sources.text(span);
+    let message = format!("{}: `{}` of {code} needs {want}, `{text}` is {found}", draft.title(), port.name);
+    let mut report = Diagnostic::new(codes::TYPE_DIFFERS, span, message);
+    if let Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) = source {
+        let wire = scope.wire(*id);
+        if let Some(writer) = wire.writers.first().map(|writer| &scope.drafts[writer.block.0 as usize]) {
+            report = report.label(writer_span(writer, *id), format!("{} makes it {found}", writer.title()));
+        }
+    }
+    let int_to_real = want.scalar != found.scalar && want.is_scalar() && found.is_scalar();
+    if int_to_real {
+        report = report.help("a real does not fit an int port: an int port takes truth values, counts and choices");
+    }
+    report
+}
+
+/// In a composite, each output must be written under its name.
+fn check_written<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((decl, sizes)) = scope.owner.clone() else {
+        return;
+    };
+    for name in crate::number::output_names(decl, &sizes) {
+        let id = input.symbols.find(&name).and_then(|symbol| scope.by_name.get(&symbol)).copied();
+        let Some(id) = id.filter(|id| !scope.wire(*id).writers.is_empty() || scope.wire(*id).spoiled) else {
+            let message = format!("expected a statement that writes the output `{name}` of {}, found none", decl.name);
+            diagnostics.push(Diagnostic::new(codes::BAD_DECLARATION, decl.span, message));
+            continue;
+        };
+        let index = scope.outputs.len();
+        scope.outputs.push(id);
+        let want = pcl2_lang::model::output_decl(decl, &sizes, index).and_then(|o| kernel::resolve(&decl.outputs[o].ty, &sizes));
+        let found = scope.wire(id).ty;
+        if let (Some(want), Some(found)) = (want, found.filter(|_| !scope.wire(id).spoiled)) {
+            if want != found {
+                let message = format!("expected {want} for the output `{name}` of {}, found {found}", decl.name);
+                diagnostics.push(Diagnostic::new(codes::TYPE_DIFFERS, scope.wire(id).span, message).label(decl.span, "declared here"));
+            }
+        }
+    }
+}
