@@ -39,6 +39,11 @@ pub fn check_constant(bounds: Option<&Bounds>, value: i64, sizes: &[i32]) -> Opt
     violated(&tail, value as f64, sizes, None)
 }
 
+/// Checks one value against the tail of a place, such as an operator cell's port; `Some` says what was expected.
+pub fn check_value(tail: &Tail, value: f64, sizes: &[i32]) -> Option<String> {
+    violated(tail, value, sizes, None)
+}
+
 fn violated(tail: &Tail, number: f64, sizes: &[i32], values: Option<(&[Value], Width)>) -> Option<String> {
     if !number.is_finite() {
         return Some("a finite number".to_owned());
