@@ -80,12 +80,14 @@ PCL2_INLINE int32_t nn_any_bad(int32_t n, const pcl2_real *x)
 }
 
 PCL2_KERNEL void pcl2_nn_init(struct pcl2_nn *self, int32_t m, int32_t n, int32_t h, pcl2_real eta,
-                              pcl2_real alpha, const pcl2_real *weights, pcl2_real *w, pcl2_real *dw)
+                              pcl2_real alpha, const pcl2_real *weights, pcl2_real *w, pcl2_real *dw,
+                              pcl2_real *o)
 {
     (void)self;
     (void)eta;
     (void)alpha;
     (void)dw;
+    (void)o;
     for (int32_t i = 0; i < (n + 1) * h + (h + 1) * m; ++i) {
         w[i] = weights[i];
     }
