@@ -1,0 +1,508 @@
+//! Second pass: wires, calls and what follows them, as tapes over the places of the first pass.
+
+use super::Unsupported;
+use super::place::{Body, Fill, NOWHERE, Node, Store, has_slot, width_of};
+use crate::ffi::{Op, Plan, Slot, Tape};
+use pcl2_lang::decl::{Decl, PortDecl};
+use pcl2_lang::kernel::{self, Arg, Entry};
+use pcl2_lang::program::{
+    Block, BlockId, Program, Role, SectionKind, Signal, SignalId, Source, Tracked, Unit, UnitId, Writer,
+};
+use pcl2_lang::types::{Scalar, Shape, Type};
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// Places that all blocks share.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shared {
+    /// What a check returns.
+    pub(crate) verdict: usize,
+    /// The two reals that a check leaves.
+    pub(crate) left: usize,
+    /// Scratch of the block that runs.
+    work: usize,
+}
+
+/// The ranges of one block of the program's own unit on the tapes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ranges {
+    pub(crate) convert: Range<usize>,
+    pub(crate) check: Range<usize>,
+    pub(crate) tune: Range<usize>,
+    pub(crate) step: Range<usize>,
+}
+
+/// Wires a program.
+pub(crate) struct Wiring<'a, 'b> {
+    store: &'b mut Store<'a>,
+    program: &'a Program,
+    plan: Plan,
+    shared: Shared,
+    cells: Vec<usize>,
+    cells_by_block: FxHashMap<u32, Vec<usize>>,
+    images: Vec<usize>,
+    sizes: FxHashMap<i32, usize>,
+    periods: FxHashMap<i64, usize>,
+}
+
+/// Everything that the second pass finds out.
+#[derive(Debug)]
+pub(crate) struct Wired {
+    pub(crate) plan: Plan,
+    pub(crate) shared: Shared,
+    pub(crate) cells: Vec<usize>,
+    pub(crate) images: Vec<usize>,
+    /// One for each block of the program's own unit.
+    pub(crate) ranges: Vec<Ranges>,
+    /// The function code of each check on its tape.
+    pub(crate) checks: Vec<pcl2_lang::program::DeclId>,
+}
+
+/// One instance of a unit while it is wired.
+struct Context<'c> {
+    signals: &'c [usize],
+    period: Option<i64>,
+    /// Whether this is the body of a composite.
+    nested: bool,
+    /// The status of the composite around it.
+    outer_status: Option<usize>,
+    /// The block of the program's own unit.
+    top: u32,
+}
+
+/// Wires all blocks. Composite ports become known on the way, so the body is completed too.
+pub(crate) fn wire(store: &mut Store, body: &mut Body) -> Result<Wired, Unsupported> {
+    let program = store.program;
+    let left = store.take(2 * program.width.bytes())?;
+    let verdict = store.take(4)?;
+    let work = NOWHERE;
+    let cells =
+        program.main().cells.iter().map(|cell| store.constant(cell.ty, &cell.initial)).collect::<Result<_, _>>()?;
+    let images = program
+        .images
+        .iter()
+        .map(|image| store.take(width_of(image.scalar, program.width)))
+        .collect::<Result<_, _>>()?;
+    let shared = Shared { verdict, left, work };
+    let mut cells_by_block: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+    for (i, cell) in program.main().cells.iter().enumerate() {
+        cells_by_block.entry(cell.block.0).or_default().push(i);
+    }
+    let (sizes, periods) = (FxHashMap::default(), FxHashMap::default());
+    let plan = Plan::default();
+    let mut wiring = Wiring { store, program, plan, shared, cells, cells_by_block, images, sizes, periods };
+    wiring.shared.work = wiring.store.take(wiring.largest_work())?;
+    let (ranges, checks) = wiring.main(body)?;
+    wiring.publish(body, true);
+    let Wiring { mut plan, shared, cells, images, store, .. } = wiring;
+    plan.bytes = store.bytes;
+    *plan.tape(Tape::Convert) = std::mem::take(&mut store.converts);
+    Ok(Wired { plan, shared, cells, images, ranges, checks })
+}
+
+impl Plan {
+    fn tape(&mut self, tape: Tape) -> &mut Vec<Op> {
+        &mut self.tapes[tape as usize]
+    }
+}
+
+type Checks = Vec<pcl2_lang::program::DeclId>;
+
+impl<'a> Wiring<'a, '_> {
+    fn main(&mut self, body: &mut Body) -> Result<(Vec<Ranges>, Checks), Unsupported> {
+        let unit = self.program.main();
+        let mut ranges = Vec::with_capacity(unit.blocks.len());
+        let mut checks = Vec::new();
+        for section in &self.program.sections {
+            let period = self.program.period.map(|scan| section.period(scan, self.program.substeps));
+            for top in section.first..section.end {
+                let start = self.lengths();
+                let context = Context { signals: &body.signals, period, nested: false, outer_status: None, top };
+                let node = &mut body.nodes[top as usize];
+                self.node(unit, BlockId(top), node, &context, &mut checks)?;
+                let end = self.lengths();
+                let range = |tape: Tape| start[tape as usize]..end[tape as usize];
+                let starts = &self.store.convert_starts;
+                let convert_end = starts.get(top as usize + 1).copied().unwrap_or(self.store.converts.len());
+                ranges.push(Ranges {
+                    convert: starts.get(top as usize).copied().unwrap_or(convert_end)..convert_end,
+                    check: range(Tape::Check),
+                    tune: range(Tape::Tune),
+                    step: range(Tape::Step),
+                });
+            }
+        }
+        Ok((ranges, checks))
+    }
+
+    fn lengths(&self) -> [usize; crate::ffi::TAPES] {
+        std::array::from_fn(|i| self.plan.tapes[i].len())
+    }
+
+    fn node(
+        &mut self,
+        unit: &'a Unit,
+        id: BlockId,
+        node: &mut Node,
+        context: &Context,
+        checks: &mut Checks,
+    ) -> Result<(), Unsupported> {
+        let block = unit.block(id);
+        match &mut node.inner {
+            Some(body) => self.composite(unit, id, node.status, body, context, checks)?,
+            None => self.leaf(unit, block, node, context, checks)?,
+        }
+        self.after(unit, id, node, context);
+        Ok(())
+    }
+
+    fn composite(
+        &mut self,
+        unit: &'a Unit,
+        id: BlockId,
+        status: Option<usize>,
+        body: &mut Body,
+        context: &Context,
+        checks: &mut Checks,
+    ) -> Result<(), Unsupported> {
+        let block = unit.block(id);
+        let inner = self.program.unit(body.unit);
+        if let Some(at) = status {
+            self.plan.tape(Tape::Step).push(Op::Clear { at });
+        }
+        for (i, signal) in inner.signals.iter().enumerate() {
+            let Role::Port(port) = signal.role else {
+                continue;
+            };
+            let Some(source) = block.ports.get(port as usize) else {
+                continue;
+            };
+            if body.signals[i] == NOWHERE {
+                let copy = writes(unit, source, id);
+                body.signals[i] = self.source(unit, source, signal.ty, copy, context)?;
+            } else {
+                self.into(unit, source, signal.ty, body.signals[i], context);
+            }
+        }
+        let Body { signals, nodes, .. } = body;
+        let context = Context { signals, period: context.period, nested: true, outer_status: status, top: context.top };
+        for (i, node) in nodes.iter_mut().enumerate() {
+            self.node(inner, BlockId(i as u32), node, &context, checks)?;
+        }
+        Ok(())
+    }
+
+    /// What follows a block: copies to variables with several writers, operator cells, its status.
+    fn after(&mut self, unit: &Unit, id: BlockId, node: &Node, context: &Context) {
+        let block = unit.block(id);
+        for (output, signal) in block.outputs.iter().enumerate() {
+            let (from, to) = (node.outputs[output], context.signals[signal.0 as usize]);
+            if from != to && from != NOWHERE && to != NOWHERE {
+                let bytes = self.store.type_bytes(unit.signal(*signal).ty);
+                self.plan.tape(Tape::Step).push(Op::Copy { from, to, bytes });
+            }
+        }
+        for i in self.cells_of(id, context) {
+            let cell = &unit.cells[i];
+            let from = match cell.tracks {
+                None => NOWHERE,
+                Some(Tracked::Output(output)) => node.outputs.get(output as usize).copied().unwrap_or(NOWHERE),
+                Some(Tracked::Memory(field)) => node.memory.get(field as usize).copied().unwrap_or(NOWHERE),
+            };
+            if from != NOWHERE {
+                let bytes = self.store.type_bytes(cell.ty);
+                self.plan.tape(Tape::Step).push(Op::Copy { from, to: self.cells[i], bytes });
+            }
+        }
+        if let Some(at) = node.status {
+            self.plan.tape(Tape::Step).push(match context.outer_status {
+                None => Op::Fault { at, block: context.top },
+                Some(to) => Op::Carry { from: at, to },
+            });
+        }
+    }
+
+    /// The operator cells of a block; only the program's own unit has any.
+    fn cells_of(&self, id: BlockId, context: &Context) -> Vec<usize> {
+        match context.nested {
+            true => Vec::new(),
+            false => self.cells_by_block.get(&id.0).cloned().unwrap_or_default(),
+        }
+    }
+
+    fn leaf(
+        &mut self,
+        unit: &'a Unit,
+        block: &'a Block,
+        node: &Node,
+        context: &Context,
+        checks: &mut Checks,
+    ) -> Result<(), Unsupported> {
+        let decl = self.program.decl(block.decl);
+        for (entry, tape) in [
+            (Entry::Check, Tape::Check),
+            (Entry::Tune, Tape::Tune),
+            (Entry::Init, Tape::Init),
+            (Entry::Step, Tape::Step),
+        ] {
+            let Some(function) = node.kernel.and_then(|kernel| kernel.function(entry)) else {
+                continue;
+            };
+            let mut slots = self.arguments(unit, block, decl, node, entry, context)?;
+            match entry {
+                Entry::Check => {
+                    slots.push(Slot { at: self.shared.verdict, bytes: 4 });
+                    checks.push(block.decl);
+                }
+                Entry::Step if kernel::returns_value(decl) => slots.push(self.output(block, decl, node, 0)),
+                Entry::Step | Entry::Tune | Entry::Init => {}
+            }
+            let first = self.plan.arguments.len();
+            let count = slots.len();
+            self.plan.arguments.extend(slots);
+            self.plan.tape(tape).push(Op::Call { function, first, count });
+        }
+        Ok(())
+    }
+
+    fn arguments(
+        &mut self,
+        unit: &'a Unit,
+        block: &'a Block,
+        decl: &'a Decl,
+        node: &Node,
+        entry: Entry,
+        context: &Context,
+    ) -> Result<Vec<Slot>, Unsupported> {
+        let mut slots = Vec::new();
+        let mut work = self.shared.work;
+        let mut port_first = 0;
+        for arg in kernel::args(decl, entry) {
+            slots.push(match arg {
+                Arg::Instance => Slot { at: node.instance, bytes: node.kernel.map_or(0, crate::ffi::Kernel::size) },
+                Arg::Size(i) => self.size(block.sizes[i])?,
+                Arg::Period => self.period(decl, context)?,
+                Arg::Left => Slot { at: self.shared.left, bytes: 2 * self.program.width.bytes() },
+                Arg::Param(i) => self.param(block, decl, node, i),
+                Arg::Memory(i) => self.slot(node.memory[i], self.store.field_bytes(&decl.memory[i], &block.sizes)),
+                Arg::Tuned(i) => self.slot(node.tuned[i], self.store.field_bytes(&decl.tuned[i], &block.sizes)),
+                Arg::Work(i) => {
+                    let bytes = self.store.field_bytes(&decl.work[i], &block.sizes);
+                    let slot = self.slot(if bytes == 0 { NOWHERE } else { work }, bytes);
+                    work = work.saturating_add(bytes.next_multiple_of(8));
+                    slot
+                }
+                Arg::Output(i) => self.output(block, decl, node, i),
+                Arg::Image => self.image(block),
+                Arg::Port(i) => match decl.ports().nth(i) {
+                    Some(port) => self.port(unit, block, port, &mut port_first, context)?,
+                    None => Slot { at: 0, bytes: 0 },
+                },
+            });
+        }
+        Ok(slots)
+    }
+
+    fn slot(&self, at: usize, bytes: usize) -> Slot {
+        if at == NOWHERE { Slot { at: 0, bytes: 0 } } else { Slot { at, bytes } }
+    }
+
+    fn size(&mut self, value: i32) -> Result<Slot, Unsupported> {
+        let at = match self.sizes.get(&value) {
+            Some(at) => *at,
+            None => {
+                let at = self.store.take(4)?;
+                self.store.fills.push((at, Fill::Int(value)));
+                self.sizes.insert(value, at);
+                at
+            }
+        };
+        Ok(Slot { at, bytes: 4 })
+    }
+
+    fn period(&mut self, decl: &Decl, context: &Context) -> Result<Slot, Unsupported> {
+        let period = context.period.ok_or_else(|| Unsupported::NeedsPeriod(decl.name.clone()))?;
+        let at = match self.periods.get(&period) {
+            Some(at) => *at,
+            None => {
+                let at = self.store.take(8)?;
+                self.store.fills.push((at, Fill::Time(period)));
+                self.periods.insert(period, at);
+                at
+            }
+        };
+        Ok(Slot { at, bytes: 8 })
+    }
+
+    fn param(&self, block: &Block, decl: &Decl, node: &Node, i: usize) -> Slot {
+        let bytes = match kernel::resolve(&decl.params[i].ty, &block.sizes) {
+            Some(ty) => self.store.type_bytes(ty),
+            None => 1,
+        };
+        self.slot(node.params[i], bytes)
+    }
+
+    fn output(&self, block: &Block, decl: &Decl, node: &Node, i: usize) -> Slot {
+        let count =
+            |output: &pcl2_lang::decl::OutputDecl| kernel::count(output.group.as_ref(), &block.sizes).unwrap_or(0);
+        let first: usize = decl.outputs[..i].iter().map(count).sum();
+        let bytes = kernel::resolve(&decl.outputs[i].ty, &block.sizes).map_or(0, |ty| self.store.type_bytes(ty));
+        self.slot(node.outputs.get(first).copied().unwrap_or(NOWHERE), bytes * count(&decl.outputs[i]))
+    }
+
+    fn image(&self, block: &Block) -> Slot {
+        let Some(image) = block.image else {
+            return Slot { at: 0, bytes: 0 };
+        };
+        let word = &self.program.images[image.0 as usize];
+        Slot { at: self.images[image.0 as usize], bytes: width_of(word.scalar, self.program.width) }
+    }
+
+    fn port(
+        &mut self,
+        unit: &'a Unit,
+        block: &'a Block,
+        port: &PortDecl,
+        first: &mut usize,
+        context: &Context,
+    ) -> Result<Slot, Unsupported> {
+        let ty = kernel::resolve(&port.ty, &block.sizes).unwrap_or(Type::REAL);
+        let bytes = self.store.type_bytes(ty);
+        let count = kernel::count(port.group.as_ref(), &block.sizes).unwrap_or(0);
+        let sources = block.ports.get(*first..*first + count).unwrap_or(&[]);
+        *first += count;
+        if port.group.is_none() {
+            let Some(source) = sources.first() else {
+                return Ok(Slot { at: 0, bytes: 0 });
+            };
+            let at = self.source(unit, source, ty, matches!(source, Source::Copied(_)), context)?;
+            return Ok(self.slot(at, bytes));
+        }
+        let total = bytes.checked_mul(count).ok_or(Unsupported::TooLarge)?;
+        let at = self.store.take(total)?;
+        for (i, source) in sources.iter().enumerate().filter(|_| bytes > 0) {
+            self.into(unit, source, ty, at + i * bytes, context);
+        }
+        Ok(self.slot(at, total))
+    }
+
+    /// Where a kernel finds what is wired to a port.
+    fn source(
+        &mut self,
+        unit: &'a Unit,
+        source: &'a Source,
+        want: Type,
+        copy: bool,
+        context: &Context,
+    ) -> Result<usize, Unsupported> {
+        let (from, found) = match source {
+            Source::Constant(value) => return self.store.constant(want, value),
+            wired => self.wired(unit, wired, context),
+        };
+        if found.scalar == want.scalar && !copy {
+            return Ok(from);
+        }
+        let to = self.store.take_type(want)?;
+        if to != NOWHERE {
+            self.into(unit, source, want, to, context);
+        }
+        Ok(to)
+    }
+
+    /// Brings what is wired to a port to a place of its own.
+    fn into(&mut self, unit: &'a Unit, source: &'a Source, want: Type, to: usize, context: &Context) {
+        if let Source::Constant(value) = source {
+            self.store.fills.push((to, Fill::Value(want.scalar, want.elements(), value)));
+            return;
+        }
+        let (from, found) = self.wired(unit, source, context);
+        if from == NOWHERE {
+            return;
+        }
+        let bytes = self.store.type_bytes(want);
+        self.plan.tape(Tape::Step).push(if found.scalar == want.scalar {
+            Op::Copy { from, to, bytes }
+        } else {
+            Op::Convert { from, to }
+        });
+    }
+
+    fn wired(&self, unit: &Unit, source: &Source, context: &Context) -> (usize, Type) {
+        match source {
+            Source::Signal(id) | Source::Copied(id) => (context.signals[id.0 as usize], unit.signal(*id).ty),
+            Source::Element(id, element) => {
+                let ty = Type { scalar: unit.signal(*id).ty.scalar, shape: Shape::Scalar };
+                let offset = *element as usize * width_of(ty.scalar, self.program.width);
+                (context.signals[id.0 as usize].saturating_add(offset), ty)
+            }
+            Source::Cell(id) => (self.cells[id.0 as usize], unit.cells[id.0 as usize].ty),
+            Source::Constant(_) => (NOWHERE, Type { scalar: Scalar::Real, shape: Shape::Vector(0) }),
+        }
+    }
+
+    fn largest_work(&self) -> usize {
+        let blocks = self.program.units.iter().flat_map(|unit| &unit.blocks);
+        let work = blocks.map(|block| {
+            let decl = self.program.decl(block.decl);
+            decl.work.iter().map(|field| self.store.field_bytes(field, &block.sizes).next_multiple_of(8)).sum()
+        });
+        work.max().unwrap_or(0)
+    }
+
+    /// Declared initial outputs reach variables with several writers: from the first that has one.
+    fn publish(&mut self, body: &Body, main: bool) {
+        let unit = self.program.unit(body.unit);
+        for (i, signal) in unit.signals.iter().enumerate().filter(|(_, signal)| has_slot(signal)) {
+            let writer = signal.writers.iter().find(|writer| {
+                let started = !main || !initializes(self.program, writer.block);
+                started && !writer.inout && starts(self.program, body.unit, **writer)
+            });
+            if let Some(writer) = writer {
+                let from = body.nodes[writer.block.0 as usize].outputs[writer.output as usize];
+                self.publish_one(from, body.signals[i], signal);
+            }
+        }
+        for inner in body.nodes.iter().filter_map(|node| node.inner.as_ref()) {
+            self.publish(inner, false);
+        }
+    }
+
+    fn publish_one(&mut self, from: usize, to: usize, signal: &Signal) {
+        if from != NOWHERE && to != NOWHERE && from != to {
+            let bytes = self.store.type_bytes(signal.ty);
+            self.plan.tape(Tape::Publish).push(Op::Copy { from, to, bytes });
+        }
+    }
+}
+
+fn initializes(program: &Program, block: BlockId) -> bool {
+    let mut sections = program.sections.iter();
+    sections.any(|section| section.kind == SectionKind::Initialize && (section.first..section.end).contains(&block.0))
+}
+
+/// Whether a block declares an initial value for an output. A composite does where the block inside does.
+fn starts(program: &Program, unit: UnitId, writer: Writer) -> bool {
+    let block = program.unit(unit).block(writer.block);
+    let decl = program.decl(block.decl);
+    let output = pcl2_lang::model::output_decl(decl, &block.sizes, writer.output as usize);
+    if output.is_some_and(|output| decl.start.contains(&output)) {
+        return true;
+    }
+    let Some(inner) = block.unit else {
+        return false;
+    };
+    let signal =
+        program.unit(inner).outputs.get(writer.output as usize).map(|id: &SignalId| program.unit(inner).signal(*id));
+    signal.is_some_and(|signal| signal.writers.iter().any(|writer| !writer.inout && starts(program, inner, *writer)))
+}
+
+/// Whether a block writes the signal that it reads, so that the read must come first.
+fn writes(unit: &Unit, source: &Source, block: BlockId) -> bool {
+    match source {
+        Source::Signal(id) | Source::Element(id, _) => {
+            unit.signal(*id).writers.iter().any(|writer| writer.block == block)
+        }
+        Source::Copied(_) => true,
+        Source::Constant(_) | Source::Cell(_) => false,
+    }
+}

@@ -1,0 +1,318 @@
+//! The border to the C kernels: the one file with `unsafe`.
+//!
+//! Why it is sound:
+//! * All storage of a running program is one allocation, [`Bound::words`], that never moves or grows. Rust reads and
+//!   writes it through `Cell`, C through pointers taken from it, and never both at once: C runs only inside
+//!   [`Bound::run`], on this thread (raw pointers make [`Bound`] neither `Send` nor `Sync`).
+//! * [`Bound::new`] checks every range of bytes in the plan against the allocation and its alignment before it makes
+//!   a pointer of it.
+//! * A thunk reads as many pointers as its function has arguments and results, and so many stand in the table:
+//!   `build.rs` and the wiring both go by `kernel::args` of one declaration, and the length of each slot by its sizes.
+//!   The kernels stay inside the ranges that their declaration gives, as any C of the runtime does.
+//! * The tables of kernels are constants of this binary, written by `build.rs` from the same declarations.
+#![allow(unsafe_code)]
+
+use crate::health::{FaultAt, Health};
+use pcl2_lang::kernel::Entry;
+use pcl2_lang::types::Width;
+use std::cell::Cell;
+use std::ffi::c_void;
+use std::ops::Range;
+
+mod names {
+    include!(concat!(env!("OUT_DIR"), "/kernels.rs"));
+}
+
+const COUNT: usize = names::NAMES.len();
+
+type Thunk = unsafe extern "C" fn(*const *mut c_void);
+
+/// One row of the tables that build.rs writes.
+#[repr(C)]
+struct Row {
+    size: u32,
+    members: u32,
+    offsets: *const u32,
+    step: Option<Thunk>,
+    init: Option<Thunk>,
+    tune: Option<Thunk>,
+    check: Option<Thunk>,
+}
+
+// SAFETY: the rows are constants; nothing writes them or what they point to.
+unsafe impl Sync for Row {}
+
+unsafe extern "C" {
+    static pcl2_kernels_f64: [Row; COUNT];
+    static pcl2_kernels_f32: [Row; COUNT];
+}
+
+/// A kernel in one width.
+#[derive(Clone, Copy)]
+pub(crate) struct Kernel(&'static Row);
+
+/// One of a kernel's functions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Function(Thunk);
+
+impl Kernel {
+    /// The kernel of a function code of the catalogue.
+    pub(crate) fn find(name: &str, stem: &str, width: Width) -> Option<Kernel> {
+        let index = names::NAMES.iter().position(|known| *known == (name, stem))?;
+        // SAFETY: the tables have COUNT rows and are never written.
+        let rows = unsafe {
+            match width {
+                Width::F64 => &pcl2_kernels_f64,
+                Width::F32 => &pcl2_kernels_f32,
+            }
+        };
+        rows.get(index).map(Kernel)
+    }
+
+    /// Bytes of the instance struct.
+    pub(crate) fn size(self) -> usize {
+        self.0.size as usize
+    }
+
+    /// The offset of each member of the instance struct.
+    pub(crate) fn offsets(self) -> &'static [u32] {
+        if self.0.offsets.is_null() {
+            return &[];
+        }
+        // SAFETY: the row says how many constants its pointer leads to.
+        unsafe { std::slice::from_raw_parts(self.0.offsets, self.0.members as usize) }
+    }
+
+    /// One of its functions.
+    pub(crate) fn function(self, entry: Entry) -> Option<Function> {
+        match entry {
+            Entry::Step => self.0.step,
+            Entry::Init => self.0.init,
+            Entry::Tune => self.0.tune,
+            Entry::Check => self.0.check,
+        }
+        .map(Function)
+    }
+}
+
+impl std::fmt::Debug for Kernel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Kernel({} bytes)", self.0.size)
+    }
+}
+
+/// A range of bytes of a program's storage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slot {
+    /// First byte, a multiple of 4, for 8-byte elements of 8.
+    pub(crate) at: usize,
+    /// How many. None at all: the kernel gets NULL.
+    pub(crate) bytes: usize,
+}
+
+/// One thing to do, places as bytes of the storage.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Op {
+    /// Calls a kernel's function with `count` of the plan's arguments, from `first`.
+    Call { function: Function, first: usize, count: usize },
+    /// An int as a real.
+    Convert { from: usize, to: usize },
+    /// Bytes to another place.
+    Copy { from: usize, to: usize, bytes: usize },
+    /// Forgets the status of a composite.
+    Clear { at: usize },
+    /// Hands a status out of a composite; the first stays.
+    Carry { from: usize, to: usize },
+    /// Counts a fault of a block if there is one.
+    Fault { at: usize, block: u32 },
+}
+
+/// The lists of things to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Tape {
+    /// Int parameters of composites that inner blocks take as reals.
+    Convert,
+    /// Kernels' checks.
+    Check,
+    /// Kernels' tunes.
+    Tune,
+    /// Kernels' inits.
+    Init,
+    /// Declared initial outputs of variables with several writers.
+    Publish,
+    /// The blocks.
+    Step,
+}
+
+/// How many tapes there are.
+pub(crate) const TAPES: usize = 6;
+
+/// A program's storage and what to do with it, in places instead of pointers.
+#[derive(Debug, Default)]
+pub(crate) struct Plan {
+    /// Bytes of storage.
+    pub(crate) bytes: usize,
+    /// The arguments of all calls, one after the other.
+    pub(crate) arguments: Vec<Slot>,
+    /// The tapes, in the order of [`Tape`].
+    pub(crate) tapes: [Vec<Op>; TAPES],
+}
+
+/// Why a plan cannot run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoRoom {
+    /// There is not enough memory.
+    Memory,
+    /// A place lies outside the storage.
+    Outside,
+}
+
+#[derive(Clone, Copy)]
+enum Bare {
+    Call(Thunk, *const *mut c_void),
+    ConvertWide(*const i32, *mut f64),
+    ConvertNarrow(*const i32, *mut f32),
+    CopyWide(*const u64, *mut u64),
+    Copy(*const u8, *mut u8, usize),
+    Clear(*mut i32),
+    Carry(*const i32, *mut i32),
+    Fault(*const i32, u32),
+}
+
+/// A plan with its storage.
+pub(crate) struct Bound {
+    words: Vec<Cell<u64>>,
+    /// Read by the thunks.
+    _pointers: Vec<*mut c_void>,
+    tapes: [Vec<Bare>; TAPES],
+}
+
+impl std::fmt::Debug for Bound {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Bound({} words)", self.words.len())
+    }
+}
+
+impl Bound {
+    /// Allocates zeroed storage and turns places into pointers.
+    pub(crate) fn new(plan: &Plan, width: Width) -> Result<Bound, NoRoom> {
+        let mut words = Vec::new();
+        let count = plan.bytes.div_ceil(8);
+        words.try_reserve_exact(count).map_err(|_| NoRoom::Memory)?;
+        words.resize_with(count, || Cell::new(0_u64));
+        let storage = Storage { base: words.as_ptr().cast::<u8>().cast_mut(), bytes: count * 8 };
+        let pointers = plan.arguments.iter().map(|slot| storage.argument(*slot)).collect::<Result<Vec<_>, _>>()?;
+        let mut tapes: [Vec<Bare>; TAPES] = Default::default();
+        for (bare, ops) in tapes.iter_mut().zip(&plan.tapes) {
+            *bare = ops.iter().map(|op| storage.bind(*op, &pointers, width)).collect::<Result<_, _>>()?;
+        }
+        Ok(Bound { words, _pointers: pointers, tapes })
+    }
+
+    /// How many things a tape has to do.
+    pub(crate) fn len(&self, tape: Tape) -> usize {
+        self.tapes[tape as usize].len()
+    }
+
+    /// Does a part of a tape. Faults of `scan` go into the health record.
+    pub(crate) fn run(&self, tape: Tape, range: Range<usize>, scan: u32, health: &mut Health) {
+        let Some(ops) = self.tapes[tape as usize].get(range) else {
+            return;
+        };
+        for op in ops {
+            // SAFETY: `bind` made every pointer from a checked range of `words` or, for a call, of `_pointers`,
+            // which live as long as `self`. No `Cell` of `words` is accessed while C runs.
+            unsafe {
+                match *op {
+                    Bare::Call(thunk, arguments) => thunk(arguments),
+                    Bare::ConvertWide(from, to) => *to = f64::from(*from),
+                    Bare::ConvertNarrow(from, to) => *to = *from as f32,
+                    Bare::CopyWide(from, to) => *to = *from,
+                    Bare::Copy(from, to, bytes) => std::ptr::copy(from, to, bytes),
+                    Bare::Clear(at) => *at = 0,
+                    Bare::Carry(from, to) => {
+                        if *to == 0 {
+                            *to = *from;
+                        }
+                    }
+                    Bare::Fault(at, block) => {
+                        if *at != 0 {
+                            health.fault(FaultAt { block, status: *at, scan });
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Four bytes of the storage.
+    pub(crate) fn read4(&self, at: usize) -> [u8; 4] {
+        let word = self.read8(at & !7);
+        if at & 4 == 0 { [word[0], word[1], word[2], word[3]] } else { [word[4], word[5], word[6], word[7]] }
+    }
+
+    /// Eight bytes of the storage.
+    pub(crate) fn read8(&self, at: usize) -> [u8; 8] {
+        self.words.get(at / 8).map_or([0; 8], |word| word.get().to_ne_bytes())
+    }
+
+    /// Writes four bytes.
+    pub(crate) fn write4(&self, at: usize, bytes: [u8; 4]) {
+        let mut word = self.read8(at & !7);
+        word[at & 4..(at & 4) + 4].copy_from_slice(&bytes);
+        self.write8(at & !7, word);
+    }
+
+    /// Writes eight bytes.
+    pub(crate) fn write8(&self, at: usize, bytes: [u8; 8]) {
+        if let Some(word) = self.words.get(at / 8) {
+            word.set(u64::from_ne_bytes(bytes));
+        }
+    }
+}
+
+/// The allocation as C sees it.
+#[derive(Clone, Copy)]
+struct Storage {
+    base: *mut u8,
+    bytes: usize,
+}
+
+impl Storage {
+    fn place<T>(self, at: usize, bytes: usize) -> Result<*mut T, NoRoom> {
+        let inside = at.checked_add(bytes.max(size_of::<T>())).is_some_and(|end| end <= self.bytes);
+        if !inside || at % align_of::<T>() != 0 {
+            return Err(NoRoom::Outside);
+        }
+        // SAFETY: the offset lies inside the allocation.
+        Ok(unsafe { self.base.add(at) }.cast())
+    }
+
+    fn argument(self, slot: Slot) -> Result<*mut c_void, NoRoom> {
+        match slot.bytes {
+            0 => Ok(std::ptr::null_mut()),
+            bytes if slot.at % 4 == 0 => self.place::<u8>(slot.at, bytes).map(<*mut u8>::cast),
+            _ => Err(NoRoom::Outside),
+        }
+    }
+
+    fn bind(self, op: Op, pointers: &[*mut c_void], width: Width) -> Result<Bare, NoRoom> {
+        Ok(match op {
+            Op::Call { function: Function(thunk), first, count } => {
+                let end = first.checked_add(count).ok_or(NoRoom::Outside)?;
+                Bare::Call(thunk, pointers.get(first..end).ok_or(NoRoom::Outside)?.as_ptr())
+            }
+            Op::Convert { from, to } => match width {
+                Width::F64 => Bare::ConvertWide(self.place(from, 4)?, self.place(to, 8)?),
+                Width::F32 => Bare::ConvertNarrow(self.place(from, 4)?, self.place(to, 4)?),
+            },
+            Op::Copy { from, to, bytes: 8 } if from % 8 == 0 && to % 8 == 0 => {
+                Bare::CopyWide(self.place(from, 8)?, self.place(to, 8)?)
+            }
+            Op::Copy { from, to, bytes } => Bare::Copy(self.place(from, bytes)?, self.place(to, bytes)?, bytes),
+            Op::Clear { at } => Bare::Clear(self.place(at, 4)?),
+            Op::Carry { from, to } => Bare::Carry(self.place(from, 4)?, self.place(to, 4)?),
+            Op::Fault { at, block } => Bare::Fault(self.place(at, 4)?, block),
+        })
+    }
+}
