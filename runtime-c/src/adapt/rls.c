@@ -8,6 +8,7 @@
  *
  * ys: y(t-1) .. y(t-nA+1)      us: u(t-1) .. u(t-nB-d)
  */
+#include "pcl2_math.h"
 #include "pcl2_rls.h"
 
 /* The loops over up to 16 parameters vanish where the sizes are literals. */
@@ -107,6 +108,8 @@ PCL2_INLINE void rls_update(struct rls_size z, struct rls_state at, pcl2_real er
 PCL2_INLINE int32_t rls_adapt(struct rls_size z, struct rls_state at, pcl2_real y, pcl2_real lambda,
                               pcl2_real p0, pcl2_real pmax)
 {
+    /* A larger error is no measurement; far below the largest real, so that no parameter overflows. */
+    const pcl2_real limit = (PCL2_REAL_BITS == 32) ? PCL2_R(1e12) : PCL2_R(1e30);
     const pcl2_real power = rls_regressor(z, at);
     const pcl2_real inverse = PCL2_R(1.0) / (lambda + power);
     pcl2_real error = at.phi[0] * at.th[0];
@@ -117,7 +120,7 @@ PCL2_INLINE int32_t rls_adapt(struct rls_size z, struct rls_state at, pcl2_real 
         trace += at.p[i * z.np + i];
     }
     error = y - error;
-    if (pcl2_is_bad(power) || pcl2_is_bad(error)) {
+    if (pcl2_is_bad(power) || !(pcl2_fabs(error) < limit)) {
         return RLS_SIGNAL;
     }
     if (power < PCL2_R(0.0)) {

@@ -100,12 +100,19 @@ PCL2_KERNEL void pcl2_nn(struct pcl2_nn *self, int32_t m, const pcl2_real *x, co
     /* A step beyond this is divergence; far below the largest real, so that no weight overflows. */
     const pcl2_real limit = (PCL2_REAL_BITS == 32) ? PCL2_R(1e12) : PCL2_R(1e30);
     const int32_t first = (n + 1) * h;
+    self->status = NN_SIGNAL;
     if (nn_any_bad(n, x)) {
-        self->status = NN_SIGNAL;
         return;
     }
+    /* The outputs wait in delta: sums of huge x may cancel to NaN. */
+    nn_forward(m, n, h, w, x, z, delta + h);
+    if (nn_any_bad(m, delta + h)) {
+        return;
+    }
+    for (int32_t k = 0; k < m; ++k) {
+        o[k] = delta[h + k];
+    }
     self->status = NN_OK;
-    nn_forward(m, n, h, w, x, z, o);
     if (!(en != PCL2_R(0.0)) || pcl2_is_bad(en)) {
         return;
     }
