@@ -120,6 +120,8 @@ def arguments(name, width, rng):
               ("tanh", 64): (19.06154746539849, -19.06154746539849, 1e-8),
               ("tanh", 32): (9.010913, -9.010913, 2e-4)}[name, width]:
         xs += around(x, width, 8)
+    if name == "tanh":
+        xs += around(0.55, width, 20) + around(-0.55, width, 20)
     if name == "exp":
         xs += [rng.uniform(low, low + (38 if width == 64 else 18)) for _ in range(150)]
     keys = {bits_of(x, width): real_of(bits_of(x, width), width) for x in xs}

@@ -152,13 +152,21 @@ static void polyroots_quadratic(pcl2_real a, pcl2_real b, pcl2_real *re, pcl2_re
     }
 }
 
-void pcl2_polyroots(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
+int32_t pcl2_polyroots_scale(int32_t n, const pcl2_real *a, int32_t least)
 {
-    while (n > 0 && a[n - 1] == 0) {
-        n--;
-        re[n] = PCL2_R(0.0);
-        im[n] = PCL2_R(0.0);
+    int32_t scale = least;
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t exponent = pcl2_exponent(a[i]) + 1;
+        if (a[i] != 0 && exponent > scale * (i + 1)) {
+            scale = exponent > 0 ? (exponent + i) / (i + 1) : exponent / (i + 1);
+        }
     }
+    return scale;
+}
+
+/* Roots of a polynomial whose last coefficient is not 0. */
+static void polyroots_solve(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
+{
     if (n == 1) {
         re[0] = -a[0];
         im[0] = PCL2_R(0.0);
@@ -168,10 +176,29 @@ void pcl2_polyroots(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
         polyroots_start(n, a, re, im);
         for (int32_t sweep = 0; sweep < 200 && polyroots_sweep(n, a, re, im); sweep++) {
         }
-        for (int32_t i = 0; i < n; i++) {
-            if (pcl2_fabs(im[i]) <= 1024 * PCL2_REAL_EPSILON * pcl2_fabs(re[i])) {
-                im[i] = PCL2_R(0.0);
-            }
+    }
+}
+
+/* The roots are found in units of a power of two near the largest, so that no power of one leaves the range. */
+void pcl2_polyroots(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
+{
+    pcl2_real scaled[PCL2_POLYROOTS_MAX];
+    const pcl2_real unit = pcl2_power_of_2(pcl2_polyroots_scale(n, a, -PCL2_EXPONENT_BIAS / 2));
+    int32_t roots = n;
+    for (int32_t i = 0; i < n; i++) {
+        scaled[i] = a[i];
+        for (int32_t j = 0; j <= i; j++) {
+            scaled[i] /= unit;
         }
+    }
+    while (roots > 0 && scaled[roots - 1] == 0) {
+        roots--;
+        re[roots] = PCL2_R(0.0);
+        im[roots] = PCL2_R(0.0);
+    }
+    polyroots_solve(roots, scaled, re, im);
+    for (int32_t i = 0; i < n; i++) {
+        re[i] *= unit;
+        im[i] = pcl2_fabs(im[i]) * unit <= 1024 * PCL2_REAL_EPSILON * pcl2_fabs(re[i]) ? PCL2_R(0.0) : im[i] * unit;
     }
 }

@@ -3,6 +3,7 @@
 #include "pcl2_tf.h"
 #include "pcl2_expm.h"
 #include "pcl2_math.h"
+#include "pcl2_polyroots.h"
 #include "pcl2_transfer.h"
 
 /* y = C x0: u is not known yet. */
@@ -23,20 +24,6 @@ PCL2_KERNEL void pcl2_tf_init(
     self->y = pcl2_transfer_output(nx, c, x);
 }
 
-/* Exponent of the s for which the states s^-i x(i) are all of one size: at least the magnitude of every pole
- * (Fujiwara's bound) and at least 1/T. A power of two, so that scaling costs no digit. */
-static int32_t tf_scale(int32_t n, const pcl2_real *den, pcl2_real h)
-{
-    int32_t scale = -pcl2_exponent(h);
-    for (int32_t i = 0; i < n; i++) {
-        const int32_t exponent = pcl2_exponent(den[i]) + 1;
-        if (den[i] != 0 && exponent > scale * (i + 1)) {
-            scale = exponent > 0 ? (exponent + i) / (i + 1) : exponent / (i + 1);
-        }
-    }
-    return scale;
-}
-
 /* x s^k without leaving the range on the way. */
 static pcl2_real tf_scaled(pcl2_real x, pcl2_real s, int32_t k)
 {
@@ -49,14 +36,15 @@ static pcl2_real tf_scaled(pcl2_real x, pcl2_real s, int32_t k)
     return x;
 }
 
-/* u counts as state n + 1, whose rate is 0. In the scaled states each chain link is s. */
+/* u counts as state n + 1, whose rate is 0. The states s^-i x(i) are all of one size when s is that of the poles,
+ * at least 1/T; each link of their chain is s. */
 PCL2_KERNEL void pcl2_tf_tune(
     struct pcl2_tf *self, int32_t nden, int32_t nnum, int32_t nx, const pcl2_real *den, const pcl2_real *num,
     int64_t T, pcl2_real *c, pcl2_real *p, pcl2_real *m, pcl2_real *product)
 {
     const int32_t size = nx + 1;
     const pcl2_real h = pcl2_seconds(T);
-    const pcl2_real s = pcl2_power_of_2(tf_scale(nden, den, h));
+    const pcl2_real s = pcl2_power_of_2(pcl2_polyroots_scale(nden, den, -pcl2_exponent(h)));
     self->d = pcl2_transfer(nden, nnum, den, num, product, c);
     for (int32_t i = 0; i < size * size; i++) {
         m[i] = PCL2_R(0.0);

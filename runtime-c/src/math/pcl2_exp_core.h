@@ -43,15 +43,6 @@ static inline pcl2_real pcl2_exp_half(pcl2_real x)
     return scaled - (scaled - x);
 }
 
-/* a + b = sum + *rest exactly, whatever their order (Knuth, The Art of Computer Programming 2, 4.2.2). */
-static inline pcl2_real pcl2_exp_sum(pcl2_real a, pcl2_real b, pcl2_real *rest)
-{
-    const pcl2_real sum = a + b;
-    const pcl2_real part = sum - a;
-    *rest = (a - (sum - part)) + (b - part);
-    return sum;
-}
-
 /* x finite, from PCL2_EXP_SMALLEST to PCL2_EXP_LARGEST. */
 static inline struct pcl2_exp_parts pcl2_exp_reduce(pcl2_real x)
 {
@@ -77,19 +68,6 @@ static inline struct pcl2_exp_parts pcl2_exp_reduce(pcl2_real x)
     const pcl2_real square_rest = PCL2_R(0.5) * (r - half) * (r + half);
     e.head = r + square;
     e.tail = (square - (e.head - r)) + ((square_rest + (c + r * c)) + r * r2 * (even + r * odd));
-    return e;
-}
-
-/* (e^x - 1) / 2^k = head + tail of the result; *unit gets 2^-k, or 0 where that is lost beside 1. */
-static inline struct pcl2_exp_parts pcl2_exp_minus_1(pcl2_real x, pcl2_real *unit)
-{
-    struct pcl2_exp_parts e = pcl2_exp_reduce(x);
-    *unit = e.k > 2 * PCL2_FRACTION_BITS ? PCL2_R(0.0) : pcl2_power_of_2(-e.k);
-    const pcl2_real whole = 1 - *unit;
-    const pcl2_real whole_rest = (1 - whole) - *unit;
-    pcl2_real rest;
-    e.head = pcl2_exp_sum(whole, e.head, &rest);
-    e.tail += rest + whole_rest;
     return e;
 }
 
