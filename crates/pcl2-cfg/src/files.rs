@@ -9,9 +9,6 @@ use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax::{Tree, read_real};
 use pcl2_lang::types::Real;
 
-/// The largest parameter file in bytes.
-pub const MAX_BYTES: u64 = 64 << 20;
-
 /// What the caller found under a file's name.
 #[derive(Clone, Debug)]
 pub enum FileText {

@@ -25,17 +25,7 @@ impl Instant {
             Some(b'+') => (false, &text[1..]),
             _ => (false, text),
         };
-        let (mantissa, exponent) = match rest.split_once(['e', 'E']) {
-            Some((mantissa, exponent)) => (mantissa, exponent_of(exponent)?),
-            None => (rest, 0),
-        };
-        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        let digits: Vec<u8> = whole.bytes().chain(fraction.bytes()).collect();
-        if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
-            return Err(NoInstant::Unreadable);
-        }
-        let power = exponent + 9 - fraction.len() as i64;
-        let (magnitude, inexact) = scaled(&digits, power).ok_or(NoInstant::TooLarge)?;
+        let (magnitude, inexact) = nanoseconds(rest)?;
         Ok(Instant(if negative { -magnitude } else { magnitude + i128::from(inexact) }))
     }
 
@@ -50,6 +40,33 @@ impl Instant {
     pub fn is_negative(self) -> bool {
         self.0 < 0
     }
+}
+
+/// A period written in seconds as nanoseconds: more than 0, a whole number, and exact.
+pub fn period(text: &str) -> Option<i64> {
+    let (up, down) = (Instant::parse(text).ok()?, Instant::parse(&format!("-{text}")).ok()?);
+    let exact = up.0 == -down.0;
+    i64::try_from(up.0).ok().filter(|nanoseconds| exact && *nanoseconds > 0)
+}
+
+/// Reads a period: seconds above 0, in whole nanoseconds.
+pub fn period(text: &str) -> Option<i64> {
+    let (magnitude, inexact) = nanoseconds(text).ok()?;
+    i64::try_from(magnitude).ok().filter(|period| *period > 0 && !inexact)
+}
+
+/// Seconds without a sign in nanoseconds, cut to a whole number, and whether something was cut off.
+fn nanoseconds(text: &str) -> Result<(i128, bool), NoInstant> {
+    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent_of(exponent)?),
+        None => (text, 0),
+    };
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: Vec<u8> = whole.bytes().chain(fraction.bytes()).collect();
+    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        return Err(NoInstant::Unreadable);
+    }
+    scaled(&digits, exponent + 9 - fraction.len() as i64).ok_or(NoInstant::TooLarge)
 }
 
 fn exponent_of(text: &str) -> Result<i64, NoInstant> {
@@ -123,6 +140,16 @@ mod tests {
         }
         assert_eq!(Instant::parse("1e30"), Err(NoInstant::TooLarge));
         assert_eq!(scan("1e20", 1), None);
+    }
+
+    #[test]
+    fn periods_are_whole_nanoseconds_above_zero() {
+        assert_eq!(period("0.25"), Some(250_000_000));
+        assert_eq!(period("1e-9"), Some(1));
+        assert_eq!(period("0.10"), Some(100_000_000));
+        for text in ["0", "-1", "1e-10", "1.0000000005", "1e10", "ten", ""] {
+            assert_eq!(period(text), None, "{text}");
+        }
     }
 
     #[test]

@@ -1,0 +1,135 @@
+//! `pcl2 check`
+
+use crate::args::{CheckArgs, Format};
+use crate::console;
+use crate::outcome::Outcome;
+use crate::project::{self, Project};
+use pcl2_lang::diagnostic::{self, Diagnostic};
+use pcl2_lang::kernel;
+use pcl2_lang::program::{Program, SectionKind, Source, Unit};
+use pcl2_lang::types::Type;
+use std::fmt::Write;
+
+/// Checks programs.
+pub(crate) fn check(args: &CheckArgs) -> Outcome {
+    let mut worst = Outcome::Done;
+    for path in &args.paths {
+        let project = match project::load(path, &args.common) {
+            Ok(project) => project,
+            Err(outcome) => return outcome,
+        };
+        print(&project, args.format);
+        if project.diagnostics.iter().any(Diagnostic::is_error) {
+            worst = worst.max(Outcome::Errors);
+        }
+        if let (Some(verified), true) = (&project.verified, args.verbose) {
+            console::out(&report(verified.program()));
+        }
+        if args.timings {
+            timings(&project);
+        }
+    }
+    worst
+}
+
+fn print(project: &Project, format: Format) {
+    match format {
+        Format::Text => console::diagnostics(&project.diagnostics, &project.sources, project.left_out),
+        Format::Json => {
+            for diagnostic in &project.diagnostics {
+                console::out(&format!("{}\n", diagnostic::to_json(diagnostic, &project.sources)));
+            }
+        }
+    }
+}
+
+fn timings(project: &Project) {
+    let total: f64 = project.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();
+    for (phase, time) in &project.timings {
+        console::err(&format!("{phase:8} {:9.3} ms", time.as_secs_f64() * 1e3));
+    }
+    let rate = project.lines as f64 / total.max(1e-9);
+    console::err(&format!("total    {:9.3} ms, {} lines, {rate:.0} lines/s", total * 1e3, project.lines));
+}
+
+/// Order, rates, delays, border and memory as text.
+fn report(program: &Program) -> String {
+    let mut text = String::new();
+    let unit = program.main();
+    for section in &program.sections {
+        let title = match section.kind {
+            SectionKind::Initialize => "INITIALIZE, once".to_owned(),
+            SectionKind::Plant if program.substeps > 1 => format!("PLANT, {} times in every scan", program.substeps),
+            SectionKind::Plant => "PLANT, in every scan".to_owned(),
+            SectionKind::Control { every: 1, .. } => "CONTROL, in every scan".to_owned(),
+            SectionKind::Control { every, offset } => format!("CONTROL, in every {every}. scan from scan {offset}"),
+        };
+        let _ = writeln!(text, "{title}");
+        for block in &unit.blocks[section.first as usize..section.end as usize] {
+            let decl = program.decl(block.decl);
+            let outputs: Vec<String> = block.outputs.iter().map(|id| signal_text(unit, id.0 as usize)).collect();
+            let bytes = memory_bytes(program, block);
+            let _ = writeln!(text, "  {:>6}  {:10} {}  [{bytes} bytes]", block.number, decl.name, outputs.join(", "));
+        }
+    }
+    delays(program, &mut text);
+    border(program, &mut text);
+    let _ = writeln!(text, "memory\n  {} bytes at most", pcl2_lang::verify::bytes(program).unwrap_or(u64::MAX));
+    text
+}
+
+fn signal_text(unit: &Unit, index: usize) -> String {
+    let signal = &unit.signals[index];
+    if signal.name.is_empty() { "_".to_owned() } else { format!("{} {}", signal.ty, signal.name) }
+}
+
+fn memory_bytes(program: &Program, block: &pcl2_lang::program::Block) -> usize {
+    let decl = program.decl(block.decl);
+    let fields = decl.memory.iter().chain(&decl.tuned);
+    let elements: usize = fields.filter_map(|field| kernel::field_elements(field, &block.sizes)).sum();
+    let params = decl.params.iter().filter(|param| block.tunable && !param.fixed);
+    let params: usize = params.filter_map(|param| kernel::resolve(&param.ty, &block.sizes)).map(Type::elements).sum();
+    let outputs: usize = block.outputs.iter().map(|id| program.main().signal(*id).ty.elements()).sum();
+    (elements + params + outputs) * program.width.bytes()
+}
+
+fn delays(program: &Program, text: &mut String) {
+    if program.delays.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "values of the previous scan");
+    for delay in &program.delays {
+        let unit = program.main();
+        let (reader, signal) = (unit.block(delay.reader), unit.signal(delay.signal));
+        let why = if delay.avoidable { "avoidable" } else { "in a loop" };
+        let _ = writeln!(text, "  block {} reads {} ({why})", reader.number, signal.name);
+    }
+}
+
+/// The signals that cross between PLANT and CONTROL.
+fn border(program: &Program, text: &mut String) {
+    let plant = program.sections.iter().find(|section| section.kind == SectionKind::Plant);
+    let Some(plant) = plant else {
+        return;
+    };
+    let unit = program.main();
+    let in_plant = |block: u32| (plant.first..plant.end).contains(&block);
+    let (mut to_control, mut to_plant) = (Vec::new(), Vec::new());
+    for (index, signal) in unit.signals.iter().enumerate() {
+        let readers = unit.blocks.iter().enumerate().filter(|(_, block)| block.ports.iter().any(|port| reads(port, index)));
+        let readers: Vec<bool> = readers.map(|(b, _)| in_plant(b as u32)).collect();
+        let writers: Vec<bool> = signal.writers.iter().map(|writer| in_plant(writer.block.0)).collect();
+        if writers.contains(&true) && readers.contains(&false) {
+            to_control.push(signal.name.clone());
+        }
+        if writers.contains(&false) && readers.contains(&true) {
+            to_plant.push(signal.name.clone());
+        }
+    }
+    let _ = writeln!(text, "border\n  inputs of the controller: {}", to_control.join(", "));
+    let _ = writeln!(text, "  outputs of the controller: {}", to_plant.join(", "));
+}
+
+fn reads(port: &Source, signal: usize) -> bool {
+    matches!(port, Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) if id.0 as usize == signal)
+}

@@ -1,0 +1,40 @@
+//! The terminal. A closed pipe is no error: whoever reads has seen enough.
+
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::render;
+use pcl2_lang::source::Sources;
+use std::io::{IsTerminal, Write};
+
+/// Writes to standard output.
+pub(crate) fn out(text: &str) {
+    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// Writes one line to standard error.
+pub(crate) fn err(line: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// `error: ..` on standard error, for what has no place in a source.
+pub(crate) fn error(message: &str) {
+    err(&format!("error: {message}"));
+}
+
+/// Whether standard error is a terminal that may get colours and progress bars.
+pub(crate) fn interactive() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+/// Prints diagnostics for people.
+pub(crate) fn diagnostics(list: &[Diagnostic], sources: &Sources, left_out: usize) {
+    let color = interactive();
+    let mut text = String::new();
+    for diagnostic in list {
+        text.push_str(&render::render(diagnostic, sources, color));
+        text.push('\n');
+    }
+    if left_out > 0 {
+        text.push_str(&format!("{left_out} more errors are not shown\n"));
+    }
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}

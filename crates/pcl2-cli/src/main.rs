@@ -1,0 +1,36 @@
+//! The `pcl2` command: the only part that touches files, clocks and the terminal.
+
+mod args;
+mod blocks;
+mod build;
+mod check;
+mod config;
+mod console;
+mod explain;
+mod outcome;
+mod output;
+mod project;
+mod run;
+
+use args::{Cli, Command};
+use clap::Parser;
+use outcome::Outcome;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { Outcome::Usage.code() } else { 0 });
+        }
+    };
+    let outcome = match cli.command {
+        Command::Check(args) => check::check(&args),
+        Command::Build(args) => build::build(&args),
+        Command::Run(args) => run::run(&args),
+        Command::Blocks(args) => blocks::blocks(&args),
+        Command::Explain(args) => explain::explain(&args),
+    };
+    ExitCode::from(outcome.code())
+}

@@ -1,0 +1,364 @@
+//! From a path to a verified program: finds and reads files, and hands their texts to the front end.
+
+use crate::args::CommonArgs;
+use crate::config::{self, Config};
+use crate::console;
+use crate::outcome::Outcome;
+use pcl2_cfg::{FileText, Input, Options, wanted_files};
+use pcl2_lang::catalogue::{Catalogue, UserFile};
+use pcl2_lang::codes;
+use pcl2_lang::decl::Decl;
+use pcl2_lang::diagnostic::{self, Diagnostic};
+use pcl2_lang::source::{FileId, Sources, Span};
+use pcl2_lang::symbol::Symbols;
+use pcl2_lang::syntax;
+use pcl2_lang::types::Width;
+use pcl2_lang::verify::{Verified, verify};
+use pcl2_sim::clock;
+use rustc_hash::FxHashMap;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The largest source file in bytes.
+const MAX_SOURCE: u64 = 256 << 20;
+/// The largest parameter file in bytes.
+const MAX_PARAMETERS: u64 = 64 << 20;
+
+/// A program with everything that was read for it.
+pub(crate) struct Project {
+    /// All texts.
+    pub(crate) sources: Sources,
+    /// The program, if it has no errors.
+    pub(crate) verified: Option<Verified>,
+    /// Everything there is to say, in order.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Errors beyond the limit.
+    pub(crate) left_out: usize,
+    /// The known function codes.
+    pub(crate) catalogue: Catalogue,
+    /// C files of the user's own blocks: name and text.
+    pub(crate) kernels: Vec<(String, String)>,
+    /// The content of pcl2.toml.
+    pub(crate) config: Config,
+    /// How long each phase took.
+    pub(crate) timings: Vec<(&'static str, Duration)>,
+    /// Bytes of source, lines and blocks.
+    pub(crate) lines: usize,
+}
+
+/// Reads and checks the program at a path.
+pub(crate) fn load(path: &Path, common: &CommonArgs) -> Result<Project, Outcome> {
+    let mut loader = Loader {
+        sources: Sources::default(),
+        symbols: Symbols::default(),
+        diagnostics: Vec::new(),
+        kernels: Vec::new(),
+        timings: Vec::new(),
+    };
+    let place = loader.place(path);
+    let width = common.real.map(crate::args::Real::width).or(place.config.width).unwrap_or_default();
+    let period = period(common, &place.config, &mut loader.diagnostics)?;
+    let catalogue = loader.catalogue(&place, common);
+    let (verified, lines) = match place.source {
+        Some(file) => loader.compile(file, &place, &catalogue, common, (width, period)),
+        None => (None, 0),
+    };
+    let mut diagnostics = loader.diagnostics;
+    let left_out = diagnostic::finish(&mut diagnostics, common.strict);
+    let failed = diagnostics.iter().any(Diagnostic::is_error);
+    Ok(Project {
+        sources: loader.sources,
+        verified: verified.filter(|_| !failed),
+        diagnostics,
+        left_out,
+        catalogue,
+        kernels: loader.kernels,
+        config: place.config,
+        timings: loader.timings,
+        lines,
+    })
+}
+
+/// Loads a program for a command that needs it whole: prints the diagnostics, and stops at errors.
+pub(crate) fn load_verified(path: &Path, common: &CommonArgs) -> Result<(Project, Verified), Outcome> {
+    let mut project = load(path, common)?;
+    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
+    match project.verified.take() {
+        Some(verified) => Ok((project, verified)),
+        None => Err(Outcome::Errors),
+    }
+}
+
+fn period(common: &CommonArgs, config: &Config, diagnostics: &mut Vec<Diagnostic>) -> Result<Option<i64>, Outcome> {
+    if let Some(text) = &common.period {
+        return clock::period(text).map(Some).ok_or_else(|| {
+            console::error(&format!("--period needs seconds above 0 in whole nanoseconds, found `{text}`"));
+            Outcome::Usage
+        });
+    }
+    let Some((text, span)) = &config.period else {
+        return Ok(None);
+    };
+    let period = clock::period(text);
+    if period.is_none() {
+        let message = format!("expected a period in seconds above 0 in whole nanoseconds, found {text}");
+        diagnostics.push(Diagnostic::new(codes::PERIOD, *span, message));
+    }
+    Ok(period)
+}
+
+/// What a path leads to.
+struct Place {
+    /// The source's file, if it could be read.
+    source: Option<FileId>,
+    /// The project's folder: parameter files live below it.
+    root: PathBuf,
+    /// The file's stem.
+    stem: String,
+    config: Config,
+}
+
+struct Loader {
+    sources: Sources,
+    symbols: Symbols,
+    diagnostics: Vec<Diagnostic>,
+    kernels: Vec<(String, String)>,
+    timings: Vec<(&'static str, Duration)>,
+}
+
+impl Loader {
+    fn place(&mut self, path: &Path) -> Place {
+        let (source, root, config) = if path.is_dir() {
+            self.folder(path)
+        } else {
+            let root = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            (Some(path.to_path_buf()), root.to_path_buf(), Config::default())
+        };
+        let stem = source.as_deref().and_then(Path::file_stem).unwrap_or(path.as_os_str());
+        let stem = stem.to_string_lossy().into_owned();
+        let source = source.and_then(|source| self.read_source(&source, MAX_SOURCE));
+        Place { source, root, stem, config }
+    }
+
+    fn folder(&mut self, path: &Path) -> (Option<PathBuf>, PathBuf, Config) {
+        let root = path.to_path_buf();
+        let Some(file) = self.read_source(&path.join("pcl2.toml"), MAX_SOURCE) else {
+            return (None, root, Config::default());
+        };
+        let config = config::read(&self.sources, file, &mut self.diagnostics);
+        let source = config.source.as_ref().map(|name| path.join(name));
+        if source.is_none() && !self.diagnostics.iter().any(Diagnostic::is_error) {
+            let message = "expected `source` in [controller], found none";
+            self.diagnostics.push(Diagnostic::new(codes::CONFIGURATION, start_of(file), message));
+        }
+        (source, root, config)
+    }
+
+    /// Reads a source; a file that cannot be read is a diagnostic.
+    fn read_source(&mut self, path: &Path, limit: u64) -> Option<FileId> {
+        let clock = Instant::now();
+        let name = path.display().to_string();
+        match read_regular(path, limit) {
+            Ok(bytes) => {
+                let file = self.sources.add(name, bytes);
+                self.timings.push(("read", clock.elapsed()));
+                Some(file)
+            }
+            Err(why) => {
+                let file = self.sources.add(name.clone(), Vec::new());
+                let message = format!("expected a readable file, found `{name}`: {why}");
+                self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, start_of(file), message));
+                None
+            }
+        }
+    }
+
+    fn catalogue(&mut self, place: &Place, common: &CommonArgs) -> Catalogue {
+        let clock = Instant::now();
+        let mut catalogue = Catalogue::packed(&mut self.sources, &mut self.symbols, &mut self.diagnostics);
+        let folders = place.config.blocks.iter().map(|folder| place.root.join(folder));
+        let folders: Vec<PathBuf> = folders.chain(common.blocks.iter().cloned()).collect();
+        for folder in folders {
+            self.user_blocks(&folder, &mut catalogue);
+        }
+        self.timings.push(("blocks", clock.elapsed()));
+        catalogue
+    }
+
+    fn user_blocks(&mut self, folder: &Path, catalogue: &mut Catalogue) {
+        let names = match sorted_names(folder) {
+            Ok(names) => names,
+            Err(error) => {
+                let file = self.sources.add(folder.display().to_string(), Vec::new());
+                let message = format!("expected a folder with blocks, found `{}`: {error}", folder.display());
+                self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, start_of(file), message));
+                return;
+            }
+        };
+        let mut files = Vec::new();
+        for path in names {
+            let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or("");
+            if !matches!(extension, "fc" | "c" | "h") {
+                continue;
+            }
+            match read_regular(&path, MAX_PARAMETERS) {
+                Ok(bytes) if extension == "fc" => files.push(UserFile {
+                    name: path.display().to_string(),
+                    stem: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+                    bytes,
+                }),
+                Ok(bytes) => {
+                    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                    self.kernels.push((name, String::from_utf8_lossy(&bytes).into_owned()));
+                }
+                Err(why) => {
+                    let file = self.sources.add(path.display().to_string(), Vec::new());
+                    let message = format!("expected a readable file, found `{}`: {why}", path.display());
+                    self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, start_of(file), message));
+                }
+            }
+        }
+        catalogue.add_user(&files, &mut self.sources, &mut self.symbols, &mut self.diagnostics);
+    }
+
+    fn compile(
+        &mut self,
+        file: FileId,
+        place: &Place,
+        catalogue: &Catalogue,
+        common: &CommonArgs,
+        (width, period): (Width, Option<i64>),
+    ) -> (Option<Verified>, usize) {
+        let clock = Instant::now();
+        let tree = syntax::parse(&self.sources, file, &mut self.symbols, &mut self.diagnostics);
+        self.timings.push(("parse", clock.elapsed()));
+        let lines = self.sources.file(file).lines();
+        let files = parameter_files(&wanted_files(&tree, &self.sources, &self.symbols, catalogue), &place.root);
+        let options = Options {
+            name: place.config.name.clone().unwrap_or_else(|| place.stem.clone()),
+            period,
+            width,
+            plant: common.plant.clone(),
+            substeps: place.config.substeps.unwrap_or(1),
+            tunable: place.config.tunable.clone(),
+        };
+        let input = Input {
+            sources: &self.sources,
+            file,
+            tree: &tree,
+            symbols: &self.symbols,
+            catalogue,
+            files: &files,
+            options: &options,
+        };
+        let clock = Instant::now();
+        let program = pcl2_cfg::compile(&input, &mut self.diagnostics);
+        self.timings.push(("check", clock.elapsed()));
+        let Some(program) = program else {
+            return (None, lines);
+        };
+        self.missing_kernels(&program.decls);
+        let clock = Instant::now();
+        let verified = match verify(program) {
+            Ok(verified) => Some(verified),
+            Err(defect) => {
+                let message = format!("the compiler contradicts itself: {defect}");
+                self.diagnostics.push(Diagnostic::new(codes::DEFECT, start_of(file), message));
+                None
+            }
+        };
+        self.timings.push(("verify", clock.elapsed()));
+        (verified, lines)
+    }
+
+    /// A user's own code needs its C beside it.
+    fn missing_kernels(&mut self, used: &[Decl]) {
+        for decl in used.iter().filter(|decl| decl.user && !decl.is_composite()) {
+            let file = if decl.inline { format!("{}_inline.h", decl.stem) } else { format!("{}.c", decl.stem) };
+            if !self.kernels.iter().any(|(name, _)| *name == file) {
+                let message = format!("expected the C of `{}` in `{file}` beside its declaration, found no such file", decl.name);
+                self.diagnostics.push(Diagnostic::new(codes::MISSING_KERNEL, decl.span, message));
+            }
+        }
+    }
+}
+
+/// The start of a file.
+pub(crate) fn start_of(file: FileId) -> Span {
+    Span { file, start: 0, end: 0 }
+}
+
+/// Reads a regular file of bounded size; anything else is refused without being opened for long.
+fn read_regular(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
+    let data = fs::metadata(path).map_err(|error| plain(&error))?;
+    if data.is_dir() {
+        return Err("it is a folder".to_owned());
+    }
+    if !data.is_file() {
+        return Err("it is not a regular file".to_owned());
+    }
+    if data.len() > limit {
+        return Err(format!("it has {} bytes, more than {limit}", data.len()));
+    }
+    fs::read(path).map_err(|error| plain(&error))
+}
+
+/// An operating system's message in our own words, where it is a common one.
+fn plain(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+fn sorted_names(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let entries = fs::read_dir(folder).map_err(|error| plain(&error))?;
+    let mut names = Vec::new();
+    for entry in entries {
+        names.push(entry.map_err(|error| plain(&error))?.path());
+    }
+    names.sort();
+    Ok(names)
+}
+
+fn parameter_files(names: &[String], root: &Path) -> FxHashMap<String, FileText> {
+    let read = |name: &String| match read_parameters(name, root) {
+        Ok(bytes) => FileText::Bytes(bytes),
+        Err(why) => FileText::Unusable(why),
+    };
+    names.iter().map(|name| (name.clone(), read(name))).collect()
+}
+
+/// Reads a parameter file: a regular file inside the project's folder, no link out.
+fn read_parameters(name: &str, root: &Path) -> Result<Vec<u8>, String> {
+    let relative = Path::new(name);
+    let leaves = relative.is_absolute() || relative.components().any(|part| matches!(part, Component::ParentDir));
+    if leaves || name.is_empty() {
+        return Err("it is outside the project's folder".to_owned());
+    }
+    let path = root.join(relative);
+    let (root, target) = (root.canonicalize().map_err(|e| plain(&e))?, path.canonicalize().map_err(|e| plain(&e))?);
+    if !target.starts_with(&root) {
+        return Err("it is a link out of the project's folder".to_owned());
+    }
+    read_regular(&target, MAX_PARAMETERS)
+}
+
+/// The catalogue with the user's blocks of the command line; `None` after printing what is wrong with them.
+pub(crate) fn catalogue(common: &CommonArgs) -> Option<Catalogue> {
+    let mut loader = Loader {
+        sources: Sources::default(),
+        symbols: Symbols::default(),
+        diagnostics: Vec::new(),
+        kernels: Vec::new(),
+        timings: Vec::new(),
+    };
+    let place = Place { source: None, root: PathBuf::from("."), stem: String::new(), config: Config::default() };
+    let catalogue = loader.catalogue(&place, common);
+    let left_out = diagnostic::finish(&mut loader.diagnostics, common.strict);
+    console::diagnostics(&loader.diagnostics, &loader.sources, left_out);
+    let failed = loader.diagnostics.iter().any(Diagnostic::is_error);
+    (!failed).then_some(catalogue)
+}
