@@ -42,16 +42,9 @@ impl Instant {
     }
 }
 
-/// A period written in seconds as nanoseconds: more than 0, a whole number, and exact.
-pub fn period(text: &str) -> Option<i64> {
-    let (up, down) = (Instant::parse(text).ok()?, Instant::parse(&format!("-{text}")).ok()?);
-    let exact = up.0 == -down.0;
-    i64::try_from(up.0).ok().filter(|nanoseconds| exact && *nanoseconds > 0)
-}
-
 /// Reads a period: seconds above 0, in whole nanoseconds.
 pub fn period(text: &str) -> Option<i64> {
-    let (magnitude, inexact) = nanoseconds(text).ok()?;
+    let (magnitude, inexact) = nanoseconds(text.strip_prefix('+').unwrap_or(text)).ok()?;
     i64::try_from(magnitude).ok().filter(|period| *period > 0 && !inexact)
 }
 

@@ -2,6 +2,7 @@
 
 use pcl2_lang::model::{self, Index, Point};
 use pcl2_lang::program::{Program, UnitId};
+use pcl2_lang::suggest;
 use pcl2_lang::types::{Shape, Type};
 
 /// The named points of one program.
@@ -90,7 +91,8 @@ impl<'a> Names<'a> {
         if let Some(reason) = self.fixed_parameter(name) {
             return reason;
         }
-        match self.nearest(name) {
+        let known = self.points.iter().map(|point| point.name.as_str());
+        match suggest::closest(name, known) {
             Some(near) => format!("nothing has the name `{name}`; did you mean `{near}`?"),
             None => format!("nothing has the name `{name}`"),
         }
@@ -109,12 +111,6 @@ impl<'a> Names<'a> {
         } else {
             format!("`{name}` is not tunable here")
         })
-    }
-
-    fn nearest(&self, name: &str) -> Option<&str> {
-        let limit = (name.chars().count() / 3).max(1);
-        let near = self.points.iter().map(|point| (distance(name, &point.name, limit), point.name.as_str()));
-        near.filter(|(distance, _)| *distance <= limit).min().map(|(_, name)| name)
     }
 }
 
@@ -140,23 +136,4 @@ fn place(ty: Type, places: &[u32]) -> Option<u32> {
         (Shape::Matrix(rows, columns), [i, j]) => Some(inside(*i, rows)? * columns + inside(*j, columns)?),
         (Shape::Scalar | Shape::Vector(_) | Shape::Matrix(..), _) => None,
     }
-}
-
-/// Edits between two names; anything above `limit` may come out as `limit` + 1.
-fn distance(a: &str, b: &str, limit: usize) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    if a.len().abs_diff(b.len()) > limit {
-        return limit + 1;
-    }
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, left) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, right) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(left != right);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }
