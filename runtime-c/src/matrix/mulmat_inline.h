@@ -30,7 +30,7 @@ static inline int32_t pcl2_mulimat_element(const int32_t *a, const int32_t *b, i
     uint64_t upper = 0;
     uint64_t lower = 0;
     for (int32_t k = 0; k < q; k++) {
-        const uint64_t product = (uint64_t)((int64_t)a[k] * b[k * stride] + (INT64_C(1) << 62));
+        const uint64_t product = (uint64_t)((int64_t)a[k] * b[k * stride]) + (UINT64_C(1) << 62);
         upper += product >> 32;
         lower += product & UINT32_MAX;
     }
