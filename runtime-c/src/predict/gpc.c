@@ -312,29 +312,28 @@ PCL2_INLINE pcl2_real gpc_law(struct gpc_size z, struct gpc_state at, pcl2_real 
     return sum + ((z.na > 0) ? error + at.gain[1] * (y - *at.y1) : error);
 }
 
-/* The first good y stands for every y before it; 0 while there was none. */
-PCL2_INLINE int32_t gpc_start(struct gpc_state at, pcl2_real y)
+/* The first good y stands for every y before it. */
+PCL2_INLINE void gpc_start(struct gpc_state at, pcl2_real y)
 {
     if (*at.started == 0 && !pcl2_is_bad(y)) {
         *at.y1 = y;
         *at.started = 1;
     }
-    return *at.started;
 }
 
 /* Manual: u follows u0, a bad y is taken as unchanged. */
 PCL2_INLINE void gpc_manual(struct gpc_size z, struct gpc_state at, pcl2_real y, pcl2_real u)
 {
-    const int32_t bad = pcl2_is_bad(y);
-    (void)gpc_start(at, y);
+    gpc_start(at, y);
+    const int32_t bad = pcl2_is_bad(y - *at.y1);
     *at.status = bad ? GPC_SIGNAL : GPC_OK;
     gpc_measured(z, at, bad ? *at.y1 : y);
     gpc_apply(z, at, u);
 }
 
-/* One scan.  umin and umax bound the applied increment, which is what enters the history.  The test for a
- * bad w or y is that of their difference; y enters the history before u is known, which keeps gcc from
- * storing both at once and the next scan from waiting for it. */
+/* One scan.  umin and umax bound the applied increment, which is what enters the history.  A bad w or y
+ * shows in the differences that the law takes, and so does one that would overflow them.  y enters the
+ * history before u is known: else gcc stores both at once and the next scan waits for that. */
 PCL2_INLINE void gpc_scan(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y,
                           const pcl2_real *p, pcl2_real sw, pcl2_real u0, pcl2_real umin,
                           pcl2_real umax, pcl2_real lambda)
@@ -344,12 +343,12 @@ PCL2_INLINE void gpc_scan(struct gpc_size z, struct gpc_state at, pcl2_real w, p
         gpc_manual(z, at, y, gpc_clamp(u0, umin, umax));
         return;
     }
-    if (pcl2_is_bad(w - y)) {
+    if (pcl2_is_bad((w - y) + (y - *at.y1))) {
         *at.status = GPC_SIGNAL;
         return;
     }
     if (lambda != *at.designed || gpc_changed(z.na + z.nb, p, at.model)) {
-        (void)gpc_start(at, y);
+        gpc_start(at, y);
         *at.status = gpc_redesign(z, p, lambda, at);
     }
     const pcl2_real u = gpc_law(z, at, w, y);
