@@ -28,7 +28,7 @@ pub(crate) fn bind<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
         };
         draft.decl = Some(decl);
         let before = diagnostics.len();
-        Binder { input, owner, diagnostics, decl, draft }.inputs();
+        Binder { input, owner, diagnostics, decl, draft, constants: Vec::new() }.inputs();
         draft.spoiled = diagnostics[before..].iter().any(Diagnostic::is_error);
     }
 }
@@ -46,6 +46,8 @@ struct Binder<'b, 'a> {
     diagnostics: &'b mut Vec<Diagnostic>,
     decl: &'a Decl,
     draft: &'b mut Draft<'a>,
+    /// The constants that were read: declaration, value, place.
+    constants: Vec<(&'a ConstantDecl, i32, Span)>,
 }
 
 impl<'a> Binder<'_, 'a> {
@@ -104,6 +106,7 @@ impl<'a> Binder<'_, 'a> {
             }
         }
         self.rest(next.as_slice(), &labels);
+        self.ranges();
     }
 
     fn label(&mut self, place: &'a Place, labels: &mut Vec<(&'a str, &'a Place)>) {
@@ -132,7 +135,7 @@ impl<'a> Binder<'_, 'a> {
         }
     }
 
-    fn constant(&mut self, constant: &ConstantDecl, place: Option<&'a Place>) {
+    fn constant(&mut self, constant: &'a ConstantDecl, place: Option<&'a Place>) {
         let Some(place) = place else {
             return self.missing(&format!("the constant `{}`", constant.name));
         };
@@ -142,10 +145,17 @@ impl<'a> Binder<'_, 'a> {
             return;
         };
         self.draft.sizes[constant.size] = Some(value);
+        self.constants.push((constant, value, place.span));
+    }
+
+    /// Ranges of constants, which may speak of one another.
+    fn ranges(&mut self) {
         let known: Vec<i32> = self.draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
-        if let Some(expected) = bounds::check_constant(constant.bounds.as_ref(), i64::from(value), &known) {
-            let message = format!("expected `{}` of {} {expected}, found {value}", constant.name, self.decl.name);
-            self.push(Diagnostic::new(codes::OUT_OF_RANGE, place.span, message).help(self.form()));
+        for (constant, value, span) in std::mem::take(&mut self.constants) {
+            if let Some(expected) = bounds::check_constant(constant.bounds.as_ref(), i64::from(value), &known) {
+                let message = format!("expected `{}` of {} {expected}, found {value}", constant.name, self.decl.name);
+                self.push(Diagnostic::new(codes::OUT_OF_RANGE, span, message).help(self.form()));
+            }
         }
     }
 
