@@ -1,0 +1,40 @@
+//! The C compilers and emulators that the tests use.
+
+use crate::shell::{found, run, say};
+use std::process::Command;
+
+/// A program that the tests call, and the Debian package that has it.
+const NEEDED: [(&str, &str); 5] = [
+    ("gcc", "gcc"),
+    ("clang", "clang"),
+    ("make", "make"),
+    ("arm-none-eabi-gcc", "gcc-arm-none-eabi"),
+    ("qemu-system-arm", "qemu-system-arm"),
+];
+
+/// Libraries without a program of their own: a file that tells, and the package.
+const LIBRARIES: [(&str, &str); 1] = [("/usr/lib/arm-none-eabi/include/stdint.h", "libnewlib-arm-none-eabi")];
+
+/// Installs what is missing where the system lets us; otherwise says what to install.
+pub(crate) fn install() -> Result<(), String> {
+    let programs = NEEDED.iter().filter(|(program, _)| !found(program)).map(|(_, package)| *package);
+    let libraries = LIBRARIES.iter().filter(|(file, _)| !std::path::Path::new(file).exists()).map(|(_, package)| *package);
+    let missing: Vec<&str> = programs.chain(libraries).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let wanted = missing.join(" ");
+    if !(found("apt-get") && is_root()) {
+        return Err(format!("the tests need these Debian packages: {wanted}; install them and try again"));
+    }
+    say(&format!("installing {wanted}"));
+    run(Command::new("apt-get").args(["update", "-qq"]))?;
+    let mut apt = Command::new("apt-get");
+    apt.env("DEBIAN_FRONTEND", "noninteractive").args(["install", "-y", "-qq", "--no-install-recommends"]);
+    run(apt.args(&missing))
+}
+
+fn is_root() -> bool {
+    let id = Command::new("id").arg("-u").output();
+    id.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
+}
