@@ -57,29 +57,26 @@ PCL2_INLINE int32_t gpc_reach(struct gpc_size z)
     return (z.na > z.nb - 1 + z.d) ? z.na : z.nb - 1 + z.d;
 }
 
-/* c_r: step response of 1/A from c_0 = 1, N2 values after gpc_reach zeros.  g_s = sum b_m c_(s-1-m): step
+/* c_r: step response of 1/A from c_0 = 1, N2 values.  g_s = sum b_m c_(s-1-m): step
  * response of B/A without its dead time, N2 - d values from g_1 (the g_j of the paper, moved by d).
  * The newest term is added last: it is the one that the next turn waits for. */
 PCL2_INLINE void gpc_responses(struct gpc_size z, const pcl2_real *p, pcl2_real *c, pcl2_real *g)
 {
     GPC_UNROLL
-    for (int32_t r = -gpc_reach(z); r < 0; ++r) {
-        c[r] = PCL2_R(0.0);
-    }
-    GPC_UNROLL
     for (int32_t r = 0; r < z.n2; ++r) {
         pcl2_real sum = PCL2_R(1.0);
         GPC_UNROLL
-        for (int32_t i = z.na; i >= 1; --i) {
+        for (int32_t i = (z.na < r) ? z.na : r; i >= 1; --i) {
             sum += p[i - 1] * c[r - i];
         }
         c[r] = sum;
     }
     GPC_UNROLL
     for (int32_t s = 0; s < z.n2 - z.d; ++s) {
-        pcl2_real sum = p[z.na + z.nb - 1] * c[s - z.nb + 1];
+        const int32_t oldest = (z.nb - 1 < s) ? z.nb - 1 : s;
+        pcl2_real sum = p[z.na + oldest] * c[s - oldest];
         GPC_UNROLL
-        for (int32_t m = z.nb - 2; m >= 0; --m) {
+        for (int32_t m = oldest - 1; m >= 0; --m) {
             sum += p[z.na + m] * c[s - m];
         }
         g[s] = sum;
@@ -163,7 +160,7 @@ PCL2_INLINE void gpc_weights(struct gpc_size z, const pcl2_real *c, const pcl2_r
         const int32_t first = (lag > 0) ? lag : 0;
         const int32_t last = (lag - 1 + nq < z.nu - 1) ? lag - 1 + nq : z.nu - 1;
         pcl2_real sum = PCL2_R(0.0);
-        int32_t s = 0;
+        int32_t s = (z.d + lag < 0) ? -(z.d + lag) : 0;
         GPC_UNROLL
         for (int32_t i = last; i >= first; --i) {
             GPC_UNROLL
@@ -196,7 +193,7 @@ PCL2_INLINE pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g, c
 PCL2_INLINE int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, pcl2_real *gain,
                           pcl2_real *work)
 {
-    pcl2_real *const c = work + gpc_reach(z);
+    pcl2_real *const c = work;
     pcl2_real *const g = c + z.n2;
     pcl2_real *const h = g + (z.n2 - z.d);
     pcl2_real *const v = h + z.nu * z.nu;
