@@ -1,9 +1,23 @@
-//! `pcl2 run`
+//! `pcl2 run`: prepares what goes in, runs one of the engines, hands out what comes back.
+
+mod embedded;
+mod files;
+mod job;
+mod progress;
+mod recorder;
+mod summary;
 
 use crate::args::CommonArgs;
+use crate::console;
 use crate::outcome::Outcome;
 use crate::project;
-use clap::Args;
+use clap::{Args, ValueEnum};
+use job::Job;
+use pcl2_sim::engine::{Machine, Unsupported};
+use pcl2_sim::health::Health;
+use pcl2_sim::names::Names;
+use pcl2_sim::number::Number;
+use recorder::Recorder;
 use std::path::PathBuf;
 
 /// `pcl2 run`
@@ -11,14 +25,120 @@ use std::path::PathBuf;
 pub(crate) struct RunArgs {
     /// A .cfg file, or a folder with pcl2.toml
     pub(crate) path: PathBuf,
+    /// How many scans
+    #[arg(long, value_name = "N", conflicts_with = "until")]
+    pub(crate) steps: Option<u64>,
+    /// How long, in seconds
+    #[arg(long, value_name = "S")]
+    pub(crate) until: Option<String>,
+    /// What comes from outside: a clock column `k` or `t`, then inputs, parameters and operator cells
+    #[arg(long, value_name = "CSV")]
+    pub(crate) stimulus: Option<PathBuf>,
+    /// Set an input, a parameter or an operator cell, at a time if one is given
+    #[arg(long = "set", value_name = "NAME=VALUE[@S]")]
+    pub(crate) sets: Vec<String>,
+    /// Write the signals after every scan (`-`: to standard output)
+    #[arg(long, value_name = "CSV")]
+    pub(crate) trace: Option<PathBuf>,
+    /// Which signals to record, separated by commas; all of them if not given
+    #[arg(long, value_name = "NAMES")]
+    pub(crate) record: Vec<String>,
+    /// What runs the program
+    #[arg(long, value_enum)]
+    pub(crate) engine: Option<Engine>,
+    /// Write the parameters as they are at the end
+    #[arg(long, value_name = "FILE")]
+    pub(crate) params: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
 
+/// What runs a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Engine {
+    /// The kernels inside this command
+    Embedded,
+    /// The emitted C, compiled with $CC or cc
+    Cc,
+}
+
+/// How a run ended early.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    outcome: Outcome,
+    message: String,
+}
+
+impl Failure {
+    fn usage(message: impl Into<String>) -> Failure {
+        Failure { outcome: Outcome::Usage, message: message.into() }
+    }
+
+    fn failed(message: impl Into<String>) -> Failure {
+        Failure { outcome: Outcome::Failed, message: message.into() }
+    }
+}
+
+/// What an engine leaves.
+#[derive(Debug, Default)]
+pub(crate) struct Finished {
+    health: Health,
+    /// The values of [`Job::params`].
+    params: Vec<Number>,
+}
+
 /// Runs a program.
 pub(crate) fn run(args: &RunArgs) -> Outcome {
-    match project::load_verified(&args.path, &args.common) {
-        Ok(_) => Outcome::Done,
-        Err(outcome) => outcome,
+    let (project, verified) = match project::load_verified(&args.path, &args.common) {
+        Ok(loaded) => loaded,
+        Err(outcome) => return outcome,
+    };
+    let _ = &project;
+    let names = Names::new(verified.program());
+    let ended = Job::new(args, &names).and_then(|job| {
+        let engine = choose(args.engine, &verified)?;
+        execute(args, &job, engine)
+    });
+    match ended {
+        Ok(()) => Outcome::Done,
+        Err(failure) => {
+            console::error(&failure.message);
+            failure.outcome
+        }
     }
+}
+
+/// The engine that takes the program. C of the user's own needs the C compiler.
+fn choose<'a>(wish: Option<Engine>, verified: &'a pcl2_lang::verify::Verified) -> Result<Option<Machine<'a>>, Failure> {
+    if wish == Some(Engine::Cc) {
+        return Ok(None);
+    }
+    match Machine::new(verified) {
+        Ok(machine) => Ok(Some(machine)),
+        Err(reason @ Unsupported::OwnC(_)) if wish.is_none() => {
+            console::err(&format!("note: {reason}"));
+            Ok(None)
+        }
+        Err(reason) => Err(Failure::usage(reason.to_string())),
+    }
+}
+
+fn execute(args: &RunArgs, job: &Job<'_>, machine: Option<Machine<'_>>) -> Result<(), Failure> {
+    let to_stdout = args.trace.as_deref().is_some_and(files::is_stdout);
+    let mut recorder = Recorder::new(job, args.trace.as_deref())?;
+    let finished = match machine {
+        Some(machine) => embedded::run(job, machine, &mut recorder)?,
+        None => return Err(Failure::failed("the cc engine is missing")),
+    };
+    let history = recorder.finish()?;
+    if let Some(path) = &args.params {
+        files::write(path, job.params_text(&finished.params).as_bytes())?;
+    }
+    if !to_stdout {
+        console::out(&summary::text(job, &history));
+    }
+    for line in finished.health.lines(job.names.program) {
+        console::err(&line);
+    }
+    Ok(())
 }

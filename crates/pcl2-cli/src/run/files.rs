@@ -1,0 +1,87 @@
+//! Output that appears whole or not at all.
+
+use super::Failure;
+use crate::output;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Whether a path stands for standard output.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// A file that takes its place when it is complete. What is no regular file is written as it stands.
+#[derive(Debug)]
+pub(crate) enum Output {
+    /// Standard output.
+    Stdout(io::Stdout),
+    /// A device or a pipe.
+    Direct(File),
+    /// A file beside its place, and the place.
+    Pending(NamedTempFile, PathBuf),
+}
+
+impl Output {
+    /// Opens an output.
+    pub(crate) fn open(path: &Path) -> Result<Output, Failure> {
+        if is_stdout(path) {
+            return Ok(Output::Stdout(io::stdout()));
+        }
+        open(path).map_err(|error| cannot_write(path, &error))
+    }
+
+    /// Moves a complete file to its place.
+    pub(crate) fn keep(self) -> Result<(), Failure> {
+        let Output::Pending(file, path) = self else {
+            return Ok(());
+        };
+        let kept = output::set_readable(file.as_file()).and_then(|()| file.persist(&path).map_err(|error| error.error));
+        kept.map(|_| ()).map_err(|error| cannot_write(&path, &error))
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Output::Stdout(stdout) => stdout.write(bytes),
+            Output::Direct(file) => file.write(bytes),
+            Output::Pending(file, _) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Output::Stdout(stdout) => stdout.flush(),
+            Output::Direct(file) => file.flush(),
+            Output::Pending(file, _) => file.flush(),
+        }
+    }
+}
+
+fn open(path: &Path) -> io::Result<Output> {
+    match fs::metadata(path) {
+        Ok(data) if !data.is_file() => Ok(Output::Direct(fs::OpenOptions::new().write(true).open(path)?)),
+        Ok(_) => pending(&path.canonicalize()?),
+        Err(_) => pending(path),
+    }
+}
+
+fn pending(path: &Path) -> io::Result<Output> {
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = tempfile::Builder::new().prefix(".pcl2-").tempfile_in(folder)?;
+    Ok(Output::Pending(file, path.to_path_buf()))
+}
+
+/// Writes a whole file.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let mut output = Output::open(path)?;
+    output.write_all(bytes).and_then(|()| output.flush()).map_err(|error| cannot_write(path, &error))?;
+    output.keep()
+}
+
+/// The message for an output that fails.
+pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+    Failure::failed(format!("cannot write `{}`: {error}", path.display()))
+}

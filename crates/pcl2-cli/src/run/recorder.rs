@@ -1,0 +1,101 @@
+//! Takes rows from an engine: into the trace, and a few of them into the history that the summary draws.
+
+use super::Failure;
+use super::files::{self, Output};
+use super::job::Job;
+use pcl2_sim::number::Number;
+use pcl2_sim::trace::TraceWriter;
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+/// So many samples of a signal are drawn.
+const SAMPLES: u64 = 48;
+/// So many signals are shown.
+pub(crate) const SHOWN: usize = 40;
+
+/// The recorder of one run.
+pub(crate) struct Recorder {
+    trace: Option<TraceWriter<BufWriter<Output>>>,
+    path: PathBuf,
+    scans: u64,
+    history: History,
+}
+
+/// Samples of the recorded signals.
+#[derive(Debug, Default)]
+pub(crate) struct History {
+    /// One list of values for each sample, the first columns only.
+    pub(crate) samples: Vec<Vec<Number>>,
+}
+
+/// How recording went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Recording {
+    /// More can come.
+    Open,
+    /// Whoever reads standard output has seen enough.
+    Closed,
+}
+
+impl Recorder {
+    /// Opens the trace, if one is wanted.
+    pub(crate) fn new(job: &Job<'_>, path: Option<&Path>) -> Result<Recorder, Failure> {
+        let mut trace = None;
+        if let Some(path) = path {
+            let output = BufWriter::with_capacity(1 << 16, Output::open(path)?);
+            let writer = TraceWriter::new(output, job.names, &job.columns);
+            trace = Some(writer.map_err(|error| files::cannot_write(path, &error))?);
+        }
+        let path = path.map(Path::to_path_buf).unwrap_or_default();
+        Ok(Recorder { trace, path, scans: job.scans, history: History::default() })
+    }
+
+    /// The next scan, not before this one, whose row is wanted.
+    pub(crate) fn next(&self, scan: u64) -> u64 {
+        if self.trace.is_some() { scan } else { self.next_sample(scan) }
+    }
+
+    /// The samples are spread evenly, the last scan is one of them.
+    fn next_sample(&self, scan: u64) -> u64 {
+        if self.scans <= SAMPLES {
+            return scan;
+        }
+        let (scans, count) = (u128::from(self.scans), u128::from(SAMPLES));
+        let index = ((u128::from(scan) + 1) * count).div_ceil(scans);
+        u64::try_from(index * scans / count).map_or(u64::MAX, |end| end.saturating_sub(1)).max(scan)
+    }
+
+    /// Takes what stands after a scan.
+    pub(crate) fn row(&mut self, scan: u64, values: &[Number]) -> Result<Recording, Failure> {
+        if self.next_sample(scan) == scan {
+            self.history.samples.push(values.iter().take(SHOWN).copied().collect());
+        }
+        let Some(trace) = &mut self.trace else {
+            return Ok(Recording::Open);
+        };
+        match trace.row(scan, values.iter().copied()) {
+            Ok(()) => Ok(Recording::Open),
+            Err(error) => self.broken(&error).map(|()| Recording::Closed),
+        }
+    }
+
+    fn broken(&self, error: &io::Error) -> Result<(), Failure> {
+        let closed = error.kind() == io::ErrorKind::BrokenPipe && files::is_stdout(&self.path);
+        if closed { Ok(()) } else { Err(files::cannot_write(&self.path, error)) }
+    }
+
+    /// Completes the trace.
+    pub(crate) fn finish(mut self) -> Result<History, Failure> {
+        let Some(trace) = self.trace.take() else {
+            return Ok(self.history);
+        };
+        match trace.finish() {
+            Err(error) => self.broken(&error)?,
+            Ok(buffer) => match buffer.into_inner() {
+                Ok(output) => output.keep()?,
+                Err(error) => self.broken(error.error())?,
+            },
+        }
+        Ok(self.history)
+    }
+}
