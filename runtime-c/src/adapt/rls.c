@@ -195,8 +195,8 @@ PCL2_KERNEL void pcl2_rls2(struct pcl2_rls2 *self, int32_t np, pcl2_real y, pcl2
     rls_scan(size, at, y, u, en, lambda, P0, pmax);
 }
 
-PCL2_KERNEL void pcl2_rlsn_init(struct pcl2_rlsn *self, int32_t np, int32_t d, int32_t nA, int32_t nB, pcl2_real lambda, pcl2_real P0,
-                                pcl2_real pmax, const pcl2_real *theta0, pcl2_real *P, pcl2_real *ys,
+PCL2_KERNEL void pcl2_rlsn_init(struct pcl2_rlsn *self, int32_t np, int32_t d, int32_t nA, int32_t nB,
+                                pcl2_real lambda, pcl2_real P0, pcl2_real pmax, const pcl2_real *theta0, pcl2_real *P, pcl2_real *ys,
                                 pcl2_real *us, pcl2_real *th)
 {
     (void)self;
@@ -210,7 +210,8 @@ PCL2_KERNEL void pcl2_rlsn_init(struct pcl2_rlsn *self, int32_t np, int32_t d, i
     rls_start(np, P0, theta0, P, th);
 }
 
-PCL2_KERNEL void pcl2_rlsn(struct pcl2_rlsn *self, int32_t np, pcl2_real y, pcl2_real u, pcl2_real en, int32_t d, int32_t nA, int32_t nB,
+PCL2_KERNEL void pcl2_rlsn(struct pcl2_rlsn *self, int32_t np, pcl2_real y, pcl2_real u, pcl2_real en,
+                           int32_t d, int32_t nA, int32_t nB,
                            pcl2_real lambda, pcl2_real P0, pcl2_real pmax, pcl2_real *P, pcl2_real *ys,
                            pcl2_real *us, pcl2_real *phi, pcl2_real *s, pcl2_real *th)
 {

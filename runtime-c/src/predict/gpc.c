@@ -20,11 +20,16 @@
 #include "pcl2_gpc.h"
 #include "pcl2_math.h"
 
-/* The loops of a horizon of up to 16 vanish where the sizes are literals. */
-#if defined(__GNUC__) && !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
-#define GPC_UNROLL _Pragma("GCC unroll 16")
-#else
+/* The loops of a horizon of up to 16 vanish where the sizes are literals.  Clang wants to be told, and
+ * warns where they are not. */
+#if defined(__OPTIMIZE_SIZE__) || !defined(__GNUC__)
 #define GPC_UNROLL
+#elif defined(__clang__)
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wpass-failed"
+#define GPC_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define GPC_UNROLL _Pragma("GCC unroll 16")
 #endif
 
 enum { GPC_OK = 0, GPC_SIGNAL = 1, GPC_SINGULAR = 2 };
@@ -191,7 +196,7 @@ PCL2_INLINE pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g, c
 
 /* The law of a new model. */
 PCL2_INLINE int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, pcl2_real *gain,
-                          pcl2_real *work)
+                               pcl2_real *work)
 {
     pcl2_real *const c = work;
     pcl2_real *const g = c + z.n2;
@@ -439,4 +444,7 @@ PCL2_KERNEL void pcl2_gpcn(struct pcl2_gpcn *self, pcl2_real w, pcl2_real y, con
     gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
+#if defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
+#pragma clang diagnostic pop
+#endif
 #undef GPC_UNROLL
