@@ -1,0 +1,276 @@
+//! The step of one block: its source line, copies, the call, and what follows it.
+
+use crate::args::{Call, Caller, scratch_name};
+use crate::context::Context;
+use crate::expr::{self, Kind, Scope};
+use crate::facts::{self, Scratch, element_scalar};
+use crate::layout::{Store, writes_through};
+use crate::statics::Statics;
+use crate::text;
+use pcl2_lang::kernel::{self, Entry};
+use pcl2_lang::program::{BlockId, CellId, Source, Tracked, UnitId};
+use pcl2_lang::types::{Scalar, Type};
+use std::fmt::Write;
+
+/// Writes the step of one block. Returns whether it can leave a status.
+pub(crate) fn step(
+    out: &mut String,
+    cx: &Context<'_>,
+    statics: &mut Statics,
+    scope: Scope<'_>,
+    id: BlockId,
+    indent: &str,
+) -> bool {
+    let mut call = Call::new(cx, scope.unit, id, Caller::Step(scope), None);
+    let statement = cx.sources.text(call.block().span);
+    let fallback = &call.block().name;
+    text::comment(out, indent, if statement.is_empty() { fallback } else { statement });
+    prepare(out, &mut call, indent);
+    out.push_str(indent);
+    match call.block().unit {
+        Some(inner) => body_call(out, statics, &call, inner),
+        None => kernel_call(out, statics, &call),
+    }
+    out.push_str(";\n");
+    publish(out, &call, indent, |_| true);
+    if scope.unit.0 == 0 {
+        track(out, &call, indent);
+    }
+    has_status(cx, scope.unit, id)
+}
+
+/// Whether a block can leave a status.
+pub(crate) fn has_status(cx: &Context<'_>, unit: UnitId, id: BlockId) -> bool {
+    let block = cx.program.unit(unit).block(id);
+    match block.unit {
+        Some(inner) => cx.unit_layout(inner).facts.status,
+        None => !cx.code(block.decl).decl.faults.is_empty(),
+    }
+}
+
+/// The status of a block, without its root.
+pub(crate) fn status(out: &mut String, cx: &Context<'_>, scope: Scope<'_>, id: BlockId) {
+    expr::state(out, cx, scope, id);
+    out.push_str(".status");
+}
+
+/// Copies of ports that the call itself overwrites, and groups that are too large for the stack.
+fn prepare(out: &mut String, call: &mut Call<'_, '_>, indent: &str) {
+    let mut used = Scratch::default();
+    for (i, source) in call.block().ports.iter().enumerate() {
+        let Source::Copied(id) = source else {
+            continue;
+        };
+        let ty = call.body().signal(*id).ty;
+        let first = place(&mut used, ty.scalar, ty.elements());
+        call.copies.push((i, first));
+        copy(out, indent, ty, |out| call.scratch_pointer(out, scratch_name(ty.scalar), first), |out| {
+            expr::signal_pointer(out, call.cx, call.scope(), *id);
+        });
+    }
+    if call.block().unit.is_none() {
+        gather(out, call, &mut used, indent);
+    }
+    call.scratch = used;
+}
+
+fn place(used: &mut Scratch, scalar: Scalar, elements: usize) -> usize {
+    let first = match scalar {
+        Scalar::Real => used.real,
+        Scalar::Int => used.int,
+    };
+    used.add(scalar, elements);
+    first
+}
+
+/// `memcpy` of all elements of a signal.
+fn copy(
+    out: &mut String,
+    indent: &str,
+    ty: Type,
+    to: impl FnOnce(&mut String),
+    from: impl FnOnce(&mut String),
+) {
+    out.push_str(indent);
+    out.push_str("memcpy(");
+    to(out);
+    out.push_str(", ");
+    from(out);
+    let _ = writeln!(out, ", {} * sizeof({}));", ty.elements(), kernel::c_scalar(ty.scalar));
+}
+
+fn gather(out: &mut String, call: &mut Call<'_, '_>, used: &mut Scratch, indent: &str) {
+    let (block, code) = (call.block(), call.code());
+    for (p, port) in code.ports.iter().enumerate().filter(|(_, port)| port.group.is_some()) {
+        let Some(ty) = crate::code::place_type(&port.ty, block).filter(|_| !facts::is_literal(block, code, p)) else {
+            continue;
+        };
+        let (first, count) = code.port_range(p, &block.sizes);
+        let scalar = element_scalar(&port.ty);
+        let start = place(used, scalar, count * ty.elements());
+        call.gathered.push((p, start));
+        for (i, source) in block.ports[first..first + count].iter().enumerate() {
+            gather_one(out, call, source, ty, start + i * ty.elements(), indent);
+        }
+    }
+}
+
+fn gather_one(out: &mut String, call: &Call<'_, '_>, source: &Source, ty: Type, at: usize, indent: &str) {
+    let name = scratch_name(ty.scalar);
+    let root = if call.unit.0 == 0 { call.scope().root } else { "" };
+    if ty.is_scalar() {
+        let _ = write!(out, "{indent}{root}{name}[{at}] = ");
+        expr::source_value(out, call.cx, call.scope(), source, ty.scalar);
+        out.push_str(";\n");
+        return;
+    }
+    match source {
+        Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => {
+            copy(out, indent, ty, |out| call.scratch_pointer(out, name, at), |out| {
+                expr::signal_pointer(out, call.cx, call.scope(), *id);
+            });
+        }
+        Source::Constant(value) => {
+            for element in 0..ty.elements() {
+                let _ = write!(out, "{indent}{root}{name}[{}] = ", at + element);
+                text::element(out, value, element, ty.scalar, call.cx.program.width);
+                out.push_str(";\n");
+            }
+        }
+        Source::Cell(cell) => {
+            copy(out, indent, ty, |out| call.scratch_pointer(out, name, at), |out| {
+                expr::cell(out, call.cx, call.scope(), *cell);
+            });
+        }
+    }
+}
+
+fn kernel_call(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>) {
+    if call.code().returns {
+        destination(out, call);
+        out.push_str(" = ");
+    }
+    call.kernel(out, statics, Entry::Step);
+}
+
+/// What takes the value that an inline code returns.
+fn destination(out: &mut String, call: &Call<'_, '_>) {
+    let signal = call.block().outputs[0];
+    let store = call.cx.unit_layout(call.unit).stores[signal.0 as usize];
+    if let Store::Local(_) = store {
+        let _ = write!(out, "const {} ", kernel::c_element(&call.code().decl.outputs[0].ty));
+    }
+    expr::signal_value(out, call.cx, call.scope(), signal, 0);
+}
+
+fn body_call(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, inner: UnitId) {
+    let layout = call.cx.unit_layout(inner);
+    let _ = write!(out, "{}(&", layout.tag);
+    expr::block(out, call.cx, call.scope(), call.id);
+    for (i, (_, ty)) in layout.ports.iter().enumerate() {
+        out.push_str(", ");
+        call.source(out, statics, i, *ty);
+    }
+    let scratch = layout.facts.scratch;
+    for (name, size, first) in [
+        ("work", scratch.real, call.scratch.real),
+        ("iwork", scratch.int, call.scratch.int),
+        ("twork", scratch.time, call.scratch.time),
+    ] {
+        if size > 0 {
+            out.push_str(", ");
+            call.scratch_pointer(out, name, first);
+        }
+    }
+    out.push(')');
+}
+
+/// Copies the outputs of a block among several writers to their signals' own places.
+pub(crate) fn publish(out: &mut String, call: &Call<'_, '_>, indent: &str, wanted: impl Fn(usize) -> bool) {
+    let (block, code) = (call.block(), call.code());
+    let stores = &call.cx.unit_layout(call.unit).stores;
+    for (i, signal) in block.outputs.iter().enumerate() {
+        let own = match stores[signal.0 as usize] {
+            Store::Own(..) | Store::Local(_) | Store::Port(_) => true,
+            Store::Slot(_) | Store::Input(_) => false,
+        };
+        if own || !wanted(i) || (block.unit.is_none() && writes_through(code, code.output(i, &block.sizes).0)) {
+            continue;
+        }
+        let ty = call.body().signal(*signal).ty;
+        let from = |out: &mut String| expr::own_output(out, call.cx, call.scope(), call.id, i as u32);
+        assign(out, indent, ty, |out| expr::signal_base(out, call.cx, call.scope(), *signal), from);
+    }
+}
+
+/// `to = from`, element by element or as a whole.
+pub(crate) fn assign(
+    out: &mut String,
+    indent: &str,
+    ty: Type,
+    to: impl Fn(&mut String) -> Kind,
+    from: impl Fn(&mut String) -> Kind,
+) {
+    if ty.elements() == 0 {
+        return;
+    }
+    if !ty.is_scalar() {
+        copy(out, indent, ty, |out| expr::pointer(out, to), |out| expr::pointer(out, from));
+        return;
+    }
+    out.push_str(indent);
+    let kind = to(out);
+    scalar(out, kind);
+    out.push_str(" = ");
+    let kind = from(out);
+    scalar(out, kind);
+    out.push_str(";\n");
+}
+
+fn scalar(out: &mut String, kind: Kind) {
+    if let Kind::Array(first) = kind {
+        let _ = write!(out, "[{first}]");
+    }
+}
+
+/// Operator cells that follow the block.
+fn track(out: &mut String, call: &Call<'_, '_>, indent: &str) {
+    let tracking = &call.cx.layout.tracking;
+    let first = tracking.partition_point(|(block, _)| *block < call.id.0);
+    for (_, cell) in tracking[first..].iter().take_while(|(block, _)| *block == call.id.0) {
+        let known = &call.body().cells[*cell as usize];
+        let Some(tracked) = known.tracks else {
+            continue;
+        };
+        let to = |out: &mut String| {
+            expr::cell(out, call.cx, call.scope(), CellId(*cell));
+            if known.ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) }
+        };
+        assign(out, indent, known.ty, to, |out| followed(out, call, tracked));
+    }
+}
+
+fn followed(out: &mut String, call: &Call<'_, '_>, tracked: Tracked) -> Kind {
+    match tracked {
+        Tracked::Output(output) => {
+            let (declared, _) = call.code().output(output as usize, &call.block().sizes);
+            if call.block().unit.is_none() && writes_through(call.code(), declared) {
+                expr::signal_base(out, call.cx, call.scope(), call.block().outputs[output as usize])
+            } else {
+                expr::own_output(out, call.cx, call.scope(), call.id, output)
+            }
+        }
+        Tracked::Memory(field) => {
+            let shape = call.cx.shape_of(call.unit, call.id);
+            match shape.memory.get(field as usize).copied().flatten() {
+                Some(index) => expr::field(out, call.cx, call.scope(), call.id, index),
+                None => {
+                    expr::state(out, call.cx, call.scope(), call.id);
+                    let name = call.code().decl.memory.get(field as usize).map_or("", |field| &field.name);
+                    let _ = write!(out, ".{name}");
+                    Kind::Scalar
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! What every phase reads: the program, its codes and its layout.
+
+use crate::code::Code;
+use crate::layout::{Layout, UnitLayout};
+use crate::shape::Shape;
+use pcl2_lang::program::{BlockId, DeclId, Program, UnitId};
+use pcl2_lang::source::Sources;
+
+/// Everything known of the program before C is written.
+#[derive(Debug)]
+pub(crate) struct Context<'a> {
+    /// The program.
+    pub(crate) program: &'a Program,
+    /// The text of its statements.
+    pub(crate) sources: &'a Sources,
+    /// Its C name.
+    pub(crate) name: String,
+    /// By declaration.
+    pub(crate) codes: Vec<Code<'a>>,
+    /// Where everything lives.
+    pub(crate) layout: Layout<'a>,
+    /// The program's blocks that can leave a status.
+    pub(crate) statuses: Vec<u32>,
+}
+
+impl<'a> Context<'a> {
+    /// Looks everything up.
+    pub(crate) fn new(program: &'a Program, sources: &'a Sources) -> Context<'a> {
+        let name = crate::names::settled_program_name(&program.name);
+        let codes: Vec<Code<'a>> = program.decls.iter().map(Code::new).collect();
+        let layout = crate::layout::layout(program, &name, &codes);
+        let mut context = Context { program, sources, name, codes, layout, statuses: Vec::new() };
+        let blocks = (0..program.main().blocks.len() as u32).map(BlockId);
+        context.statuses =
+            blocks.filter(|block| crate::calls::has_status(&context, UnitId(0), *block)).map(|block| block.0).collect();
+        context
+    }
+
+    /// A function code.
+    pub(crate) fn code(&self, decl: DeclId) -> &Code<'a> {
+        &self.codes[decl.0 as usize]
+    }
+
+    /// The layout of a body.
+    pub(crate) fn unit_layout(&self, unit: UnitId) -> &UnitLayout<'a> {
+        &self.layout.units[unit.0 as usize]
+    }
+
+    /// The shape of a block's instance.
+    pub(crate) fn shape_of(&self, unit: UnitId, block: BlockId) -> &Shape {
+        &self.layout.shapes[self.unit_layout(unit).members[block.0 as usize].shape as usize]
+    }
+}

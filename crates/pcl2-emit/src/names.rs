@@ -1,0 +1,173 @@
+//! Names that are legal in C: one place that turns what users write into identifiers.
+
+use rustc_hash::FxHashSet;
+use std::borrow::Cow;
+
+/// Keywords of C and C++, and what macros or the base types of any C library make unusable as a member.
+const KEYWORDS: &[&str] = &[
+    "EDOM", "EILSEQ", "EOF", "ERANGE", "FILE", "HUGE_VAL", "I", "INFINITY", "NAN", "NDEBUG", "NULL", "alignas",
+    "alignof", "and", "and_eq", "asm", "assert", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char",
+    "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return", "co_yield", "compl", "complex", "concept",
+    "const", "const_cast", "consteval", "constexpr", "constinit", "continue", "decltype", "default", "defined",
+    "delete", "do", "double", "dynamic_cast", "else", "enum", "errno", "explicit", "export", "extern", "false", "far",
+    "float", "for", "fortran", "friend", "goto", "huge", "i386", "if", "imaginary", "inline", "int", "int16_t",
+    "int32_t", "int64_t", "int8_t", "interface", "linux", "long", "math_errhandling", "memcpy", "memset", "mips",
+    "mutable", "namespace", "near", "new", "noexcept", "noreturn", "not", "not_eq", "nullptr", "offsetof", "operator",
+    "or", "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "restrict", "return",
+    "short", "signed", "sizeof", "size_t", "static", "static_assert", "static_cast", "stderr", "stdin", "stdout",
+    "struct", "switch", "template", "this", "thread_local", "throw", "true", "try", "typedef", "typeid", "typename",
+    "typeof", "typeof_unqual", "uint16_t", "uint32_t", "uint64_t", "uint8_t", "union", "unix", "unsigned", "using",
+    "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
+];
+
+/// Functions and types of the C library (and of POSIX): no program can have these names.
+const LIBRARY: &[&str] = &[
+    "DIR", "abort", "abs", "accept", "access", "acos", "acosf", "acosh", "acoshf", "acosl", "alarm", "asctime", "asin",
+    "asinf", "asinh", "asinhf", "asinl", "atan", "atan2", "atan2f", "atan2l", "atanf", "atanh", "atanhf", "atanl",
+    "atexit", "atof", "atoi", "atol", "atoll", "bcmp", "bcopy", "bind", "brk", "bsearch", "bzero", "cabs", "calloc",
+    "carg", "cbrt", "cbrtf", "ccos", "ceil", "ceilf", "ceill", "cexp", "chdir", "chmod", "cimag", "clearerr", "clock",
+    "clock_t", "clog", "close", "conj", "connect", "copysign", "copysignf", "cos", "cosf", "cosh", "coshf", "cosl",
+    "cpow", "creal", "creat", "csin", "csqrt", "ctan", "ctime", "difftime", "div", "div_t", "double_t", "drem", "dup",
+    "environ", "erf", "erfc", "erfcf", "erff", "execl", "execv", "execve", "exit", "exp", "exp10", "exp2", "exp2f",
+    "expf", "expl", "expm1", "expm1f", "fabs", "fabsf", "fabsl", "fclose", "fcntl", "fdim", "fdimf", "fdopen", "feof",
+    "ferror", "fflush", "ffs", "fgetc", "fgetpos", "fgets", "fileno", "finite", "float_t", "floor", "floorf", "floorl",
+    "fma", "fmaf", "fmax", "fmaxf", "fmin", "fminf", "fmod", "fmodf", "fmodl", "fopen", "fork", "fpclassify", "fpos_t",
+    "fprintf", "fputc", "fputs", "fread", "free", "freopen", "frexp", "frexpf", "fscanf", "fseek", "fsetpos", "fstat",
+    "ftell", "fwrite", "gamma", "getc", "getchar", "getenv", "getline", "getopt", "getpid", "gets", "gmtime", "hypot",
+    "hypotf", "ilogb", "ilogbf", "imaxabs", "index", "intmax_t", "intptr_t", "ioctl", "isalnum", "isalpha", "isatty",
+    "isblank", "iscntrl", "isdigit", "isfinite", "isgraph", "isinf", "islower", "isnan", "isnormal", "isprint",
+    "ispunct", "isspace", "isupper", "isxdigit", "j0", "j1", "jmp_buf", "jn", "kill", "labs", "ldexp", "ldexpf", "ldiv",
+    "ldiv_t", "lgamma", "lgammaf", "link", "listen", "llabs", "lldiv", "llrint", "llround", "localeconv", "localtime",
+    "log", "log10", "log10f", "log1p", "log1pf", "log2", "log2f", "logb", "logbf", "logf", "logl", "longjmp", "lrint",
+    "lrintf", "lround", "lroundf", "lseek", "main", "malloc", "mblen", "mbstowcs", "mbtowc", "memchr", "memcmp",
+    "memmove", "mkdir", "mktime", "mmap", "modf", "modff", "nan", "nanf", "nearbyint", "nextafter", "nextafterf",
+    "nexttoward", "nice", "off_t", "open", "pause", "perror", "pid_t", "pipe", "poll", "pow", "pow10", "powf", "powl",
+    "printf", "ptrdiff_t", "putc", "putchar", "putenv", "puts", "qsort", "raise", "rand", "random", "read", "readdir",
+    "realloc", "recv", "remainder", "remainderf", "remove", "remquo", "rename", "rewind", "rindex", "rint", "rintf",
+    "rmdir", "round", "roundf", "roundl", "sbrk", "scalb", "scalbln", "scalbn", "scalbnf", "scanf", "select", "send",
+    "setbuf", "setjmp", "setlocale", "setvbuf", "shutdown", "sigaction", "signal", "signbit", "signgam", "significand",
+    "sin", "sincos", "sinf", "sinh", "sinhf", "sinl", "sleep", "snprintf", "socket", "sprintf", "sqrt", "sqrtf",
+    "sqrtl", "srand", "sscanf", "ssize_t", "stat", "strcat", "strchr", "strcmp", "strcoll", "strcpy", "strcspn",
+    "strdup", "strerror", "strftime", "strlen", "strncat", "strncmp", "strncpy", "strpbrk", "strrchr", "strspn",
+    "strstr", "strtod", "strtof", "strtok", "strtol", "strtoll", "strtoul", "strxfrm", "symlink", "sync", "system",
+    "tan", "tanf", "tanh", "tanhf", "tanl", "tgamma", "tgammaf", "time", "time_t", "times", "tm", "tmpfile", "tmpnam",
+    "tolower", "toupper", "trunc", "truncate", "truncf", "truncl", "uint", "uintmax_t", "uintptr_t", "ulong", "umask",
+    "uname", "ungetc", "unlink", "ushort", "usleep", "utime", "va_arg", "va_list", "vfprintf", "vprintf", "vsnprintf",
+    "vsprintf", "wait", "wcslen", "write", "y0", "y1", "yn",
+];
+
+/// The C name of a program, given its configured name or its source file's stem.
+pub fn program_name(text: &str) -> String {
+    let name = legal(text, "p").into_owned();
+    if is_library(&name) || name.starts_with("pcl2_") || name.starts_with("PCL2_") { name + "_" } else { name }
+}
+
+/// Keeps a name that [`program_name`] made, and makes anything else legal.
+pub(crate) fn settled_program_name(text: &str) -> String {
+    match text.strip_suffix('_') {
+        Some(stem) if program_name(stem) == text => text.to_owned(),
+        Some(_) | None => program_name(text),
+    }
+}
+
+fn is_library(name: &str) -> bool {
+    LIBRARY.binary_search(&name).is_ok()
+}
+
+fn is_keyword(name: &str) -> bool {
+    KEYWORDS.binary_search(&name).is_ok()
+}
+
+/// A text as a legal member name. `3` becomes `b3` (`prefix` and the number), `FIC.bk` `FIC_bk`, `ain(0,1,1)` `ain_0_1_1`.
+fn legal<'a>(text: &'a str, prefix: &str) -> Cow<'a, str> {
+    let plain = text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    let named = text.bytes().next().is_some_and(|byte| byte.is_ascii_alphabetic());
+    let mut name = if plain && named { Cow::Borrowed(text) } else { Cow::Owned(mapped(text, prefix)) };
+    let ours = name.starts_with("pcl2_") || name.starts_with("PCL2_");
+    if is_keyword(&name) || (plain && name.ends_with('_')) || ours {
+        name.to_mut().push('_');
+    }
+    name
+}
+
+fn mapped(text: &str, prefix: &str) -> String {
+    let separators = |letter: char| !letter.is_ascii_alphanumeric() && letter != '_';
+    let name = text.split(separators).filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_");
+    let named = name.bytes().next().is_some_and(|byte| byte.is_ascii_alphabetic());
+    if named { name } else { format!("{prefix}{name}") }
+}
+
+/// One name space: gives every name once.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Namer<'a> {
+    used: FxHashSet<Cow<'a, str>>,
+}
+
+impl<'a> Namer<'a> {
+    /// A name space in which these are taken.
+    pub(crate) fn new(taken: &[&'static str]) -> Namer<'a> {
+        Namer { used: taken.iter().map(|name| Cow::Borrowed(*name)).collect() }
+    }
+
+    /// A legal name for this text, numbered if it is taken.
+    pub(crate) fn name(&mut self, text: &'a str) -> Cow<'a, str> {
+        self.take(legal(text, "b"))
+    }
+
+    /// As [`Namer::name`], for a text that does not live long.
+    pub(crate) fn made(&mut self, text: &str) -> String {
+        let name = legal(text, "b").into_owned();
+        self.take(Cow::Owned(name)).into_owned()
+    }
+
+    fn take(&mut self, wanted: Cow<'a, str>) -> Cow<'a, str> {
+        if self.used.insert(wanted.clone()) {
+            return wanted;
+        }
+        let reserved: Cow<'a, str> = Cow::Owned(format!("{wanted}_"));
+        if !wanted.ends_with('_') && self.used.insert(reserved.clone()) {
+            return reserved;
+        }
+        let mut number = 2;
+        loop {
+            let numbered: Cow<'a, str> = Cow::Owned(format!("{wanted}_{number}"));
+            if self.used.insert(numbered.clone()) {
+                return numbered;
+            }
+            number += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_sorted() {
+        assert!(KEYWORDS.is_sorted());
+        assert!(LIBRARY.is_sorted());
+    }
+
+    #[test]
+    fn names_map_readably() {
+        let mut namer = Namer::new(&["in"]);
+        let pairs = [
+            ("y1", "y1"), ("3", "b3"), ("FIC.bk", "FIC_bk"), ("ain(0,1,1)", "ain_0_1_1"), ("b#2", "b_2"), ("int", "int_"),
+            ("int_", "int__"), ("in", "in_"), ("errno", "errno_"), ("b3", "b3_"), ("N.S0", "N_S0"), ("y1", "y1_"),
+            ("y1", "y1_2"), ("3.sp", "b3_sp"), ("", "b"),
+        ];
+        for (text, name) in pairs {
+            assert_eq!(namer.name(text), name, "{text}");
+        }
+    }
+
+    #[test]
+    fn program_names() {
+        let pairs = [("main", "main_"), ("demo", "demo"), ("y1", "y1_"), ("2tanks", "p2tanks"), ("a-b", "a_b"), ("x_", "x__")];
+        for (text, name) in pairs {
+            assert_eq!(program_name(text), name);
+            assert_eq!(settled_program_name(name), name);
+        }
+    }
+}

@@ -1,0 +1,414 @@
+//! The tunable table: one row a block with parameters in RAM, one a cell; and the adapters behind the rows.
+
+use crate::args::{Call, Caller, Home, parameter_home};
+use crate::bodies::{self, has_body};
+use crate::check::{self, Checked};
+use crate::code::place_elements;
+use crate::context::Context;
+use crate::expr::{self, Scope};
+use crate::facts::{self, Facts, element_scalar};
+use crate::shape::Form;
+use crate::statics::Statics;
+use crate::text;
+use pcl2_lang::decl::TypeExpr;
+use pcl2_lang::kernel::{self, Entry};
+use pcl2_lang::model::{Place, Point};
+use pcl2_lang::program::{Block, BlockId, CellId, Param, UnitId};
+use pcl2_lang::types::{Scalar, Type};
+use rustc_hash::FxHashMap;
+use std::fmt::Write;
+
+/// The table, and the blocks that it does not hold.
+#[derive(Debug, Default)]
+pub(crate) struct Rows {
+    /// The adapters, their places and the table.
+    pub(crate) text: String,
+    /// Blocks whose tune is called directly, with the section's period.
+    pub(crate) tunes: Vec<(BlockId, Option<i64>)>,
+    /// Blocks whose init is called directly.
+    pub(crate) inits: Vec<(BlockId, Option<i64>)>,
+    count: usize,
+}
+
+impl Rows {
+    /// Whether there is a table.
+    pub(crate) fn any(&self) -> bool {
+        self.count > 0
+    }
+
+    /// The number of rows.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+}
+
+/// Builds the table. `points` are those of the map, in its order.
+pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, points: &[Point], kernels: &[Facts]) -> Rows {
+    let mut builder = Builder { cx, kernels, variants: FxHashMap::default(), rows: Rows::default(), table: String::new() };
+    let mut next = points.iter().position(|point| matches!(point.place, Place::Param(..))).unwrap_or(points.len());
+    for (section, id) in blocks_by_section(cx) {
+        let period = cx.program.period.map(|scan| cx.program.sections[section].period(scan, cx.program.substeps));
+        let places = tunable_places(cx, id);
+        if places > 0 {
+            builder.tunable(statics, id, period, next);
+            next += places;
+        } else {
+            builder.direct(id, period);
+        }
+    }
+    for (i, _) in cx.program.main().cells.iter().enumerate() {
+        builder.cell(statics, CellId(i as u32), next);
+        next += 1;
+    }
+    if builder.rows.count > 0 {
+        let _ = writeln!(
+            builder.rows.text,
+            "/* Code, instance, cold parameters, index of the first parameter in the map. */\nstatic const struct pcl2_row {}_rows[{}] = {{\n{}}};\n",
+            cx.name, builder.rows.count, builder.table
+        );
+    }
+    builder.rows
+}
+
+fn blocks_by_section<'c>(cx: &'c Context<'_>) -> impl Iterator<Item = (usize, BlockId)> + use<'c> {
+    let sections = cx.program.sections.iter().enumerate();
+    sections.flat_map(|(s, section)| (section.first..section.end).map(move |block| (s, BlockId(block))))
+}
+
+/// How many points of the map are parameters of this block.
+fn tunable_places(cx: &Context<'_>, id: BlockId) -> usize {
+    let block = cx.program.main().block(id);
+    if !block.tunable {
+        return 0;
+    }
+    let params = cx.code(block.decl).decl.params.iter();
+    params.filter(|param| !param.fixed && is_point(&param.ty, block)).count()
+}
+
+fn is_point(ty: &TypeExpr, block: &Block) -> bool {
+    kernel::resolve(ty, &block.sizes).is_some()
+}
+
+/// What the adapters of a row depend on.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Key {
+    shape: u32,
+    period: Option<i64>,
+    /// The fixed parameters that tune and check take, as literals.
+    fixed: String,
+}
+
+#[derive(Clone, Debug)]
+struct Variant {
+    /// The name of its `struct pcl2_code`.
+    name: String,
+    /// The fixed parameters with which its init adapter was made, as literals.
+    started: String,
+    /// The same without the init adapter, for blocks that start otherwise.
+    bare: Option<String>,
+}
+
+struct Builder<'c, 'a> {
+    cx: &'c Context<'a>,
+    kernels: &'c [Facts],
+    variants: FxHashMap<Key, Variant>,
+    rows: Rows,
+    table: String,
+}
+
+impl Builder<'_, '_> {
+    fn facts(&self, block: &Block) -> &Facts {
+        match block.unit {
+            Some(inner) => &self.cx.unit_layout(inner).facts,
+            None => &self.kernels[block.decl.0 as usize],
+        }
+    }
+
+    /// A block without parameters in RAM.
+    fn direct(&mut self, id: BlockId, period: Option<i64>) {
+        let facts = self.facts(self.cx.program.main().block(id));
+        let (tunes, inits) = (facts.tunes, facts.inits);
+        if tunes {
+            self.rows.tunes.push((id, period));
+        }
+        if inits {
+            self.rows.inits.push((id, period));
+        }
+    }
+
+    fn tunable(&mut self, statics: &mut Statics, id: BlockId, period: Option<i64>, first: usize) {
+        let cx = self.cx;
+        let block = cx.program.main().block(id);
+        let (facts, decl) = (self.facts(block), cx.code(block.decl).decl);
+        let (inits, periodic) = (facts.inits, facts.tune_period || facts.check_period);
+        let fixed = |takes: &dyn Fn(usize) -> bool| {
+            let mut text = String::new();
+            for i in (0..decl.params.len()).filter(|i| decl.params[*i].fixed && takes(*i)) {
+                fixed_text(&mut text, cx, block, i);
+            }
+            text
+        };
+        let key = Key {
+            shape: cx.layout.units[0].members[id.0 as usize].shape,
+            period: period.filter(|_| periodic),
+            fixed: fixed(&|i| facts.tune[i] || checked(cx, block, facts, i)),
+        };
+        let started = fixed(&|i| facts.init[i]);
+        let name = match self.variants.get(&key) {
+            None => {
+                let name = self.variant(statics, id, &key, inits);
+                self.variants.insert(key, Variant { name: name.clone(), started, bare: None });
+                name
+            }
+            Some(known) if !inits || known.started == started => known.name.clone(),
+            Some(known) => {
+                let bare = known.bare.clone();
+                self.rows.inits.push((id, period));
+                bare.unwrap_or_else(|| self.bare(statics, id, key))
+            }
+        };
+        self.row(&name, id, first);
+    }
+
+    fn bare(&mut self, statics: &mut Statics, id: BlockId, key: Key) -> String {
+        let name = self.variant(statics, id, &key, false);
+        if let Some(variant) = self.variants.get_mut(&key) {
+            variant.bare = Some(name.clone());
+        }
+        name
+    }
+
+    fn row(&mut self, code: &str, id: BlockId, first: usize) {
+        let (cx, table) = (self.cx, &mut self.table);
+        let form = cx.shape_of(UnitId(0), id).form;
+        let _ = write!(table, "    {{&{code}, ");
+        if form == Form::Nothing {
+            table.push('0');
+        } else {
+            let _ = write!(table, "offsetof({}, ", cx.name);
+            expr::block(table, cx, Scope::MEMBERS, id);
+            table.push(')');
+        }
+        let _ = match &cx.layout.cold_names[id.0 as usize] {
+            Some(cold) => writeln!(table, ", offsetof({}, cold.{cold}), {first}}},", cx.name),
+            None => writeln!(table, ", 0, {first}}},"),
+        };
+        self.rows.count += 1;
+    }
+
+    /// The adapters and the `struct pcl2_code` of blocks like this one.
+    fn variant(&mut self, statics: &mut Statics, id: BlockId, key: &Key, init: bool) -> String {
+        let cx = self.cx;
+        let block = cx.program.main().block(id);
+        let code_name = cx.code(block.decl).decl.name.clone();
+        let call = Call::new(cx, UnitId(0), id, Caller::Adapter, key.period);
+        let facts = self.facts(block).clone();
+        let checks = facts.checks || facts::has_ranges(cx.code(block.decl).decl);
+        let check = checks.then(|| check_adapter(&mut self.rows.text, statics, &call, &code_name));
+        let tune = facts.tunes.then(|| adapter(&mut self.rows.text, statics, &call, &code_name, Entry::Tune));
+        let init = init.then(|| adapter(&mut self.rows.text, statics, &call, &code_name, Entry::Init));
+        let places = places(&mut self.rows.text, cx, statics, id, &code_name);
+        let code = Code { check, tune, init, places };
+        code_struct(&mut self.rows.text, statics, &code_name, &code)
+    }
+
+    /// An operator cell is a row with one place and no derivation.
+    fn cell(&mut self, statics: &mut Statics, cell: CellId, first: usize) {
+        let cx = self.cx;
+        let known = &cx.program.main().cells[cell.0 as usize];
+        let block = cx.program.main().block(known.block);
+        let port = declared_port(cx, block, known.port as usize);
+        let key = Key { shape: u32::MAX, period: None, fixed: format!("{} {port} {:?}", block.decl.0, block.sizes) };
+        let name = match self.variants.get(&key) {
+            Some(variant) => variant.name.clone(),
+            None => {
+                let name = cell_code(&mut self.rows.text, cx, statics, block, port, known.ty);
+                self.variants.insert(key, Variant { name: name.clone(), started: String::new(), bare: None });
+                name
+            }
+        };
+        let _ = writeln!(
+            self.table,
+            "    {{&{name}, offsetof({}, cold.{}), 0, {first}}},",
+            cx.name, cx.layout.cell_names[cell.0 as usize]
+        );
+        self.rows.count += 1;
+    }
+}
+
+/// Whether a block's check reads this fixed parameter.
+fn checked(cx: &Context<'_>, block: &Block, facts: &Facts, param: usize) -> bool {
+    let decl = cx.code(block.decl).decl;
+    let mut referred = Vec::new();
+    for other in decl.params.iter().filter(|other| !other.fixed) {
+        for bound in other.tail.bounds.iter().flat_map(|bounds| [&bounds.lower, &bounds.upper]).flatten() {
+            check::collect_params(bound, &mut referred);
+        }
+    }
+    let judged = if block.unit.is_some() { facts.check[param] } else { decl.check };
+    judged || referred.contains(&param)
+}
+
+fn fixed_text(out: &mut String, cx: &Context<'_>, block: &Block, index: usize) {
+    let ty = &cx.code(block.decl).decl.params[index].ty;
+    match &block.params[index] {
+        Param::Value(pcl2_lang::types::Value::Text(value)) => text::string(out, value),
+        Param::Value(value) => {
+            text::elements(out, value, place_elements(ty, &block.sizes), element_scalar(ty), cx.program.width);
+        }
+        Param::Own(_) => {}
+    }
+    out.push(';');
+}
+
+fn declared_port(cx: &Context<'_>, block: &Block, expanded: usize) -> usize {
+    let code = cx.code(block.decl);
+    let inside = |port: &usize| {
+        let (first, count) = code.port_range(*port, &block.sizes);
+        (first..first + count).contains(&expanded)
+    };
+    (0..code.ports.len()).find(inside).unwrap_or(0)
+}
+
+/// The C type of what an adapter's first pointer points to.
+fn instance_type(call: &Call<'_, '_>) -> Option<String> {
+    let shape = call.cx.shape_of(call.unit, call.id);
+    match shape.form {
+        Form::Nothing | Form::Plain => None,
+        Form::Kernel => Some(format!("struct pcl2_{}", call.code().decl.name)),
+        Form::Struct => Some(format!("struct {}", shape.tag)),
+        Form::Body(unit) => Some(format!("struct {}", call.cx.unit_layout(unit).tag)),
+    }
+}
+
+/// The typed pointers that an adapter's body uses.
+fn pointers(out: &mut String, call: &Call<'_, '_>, body: &str, constant: &str) {
+    match instance_type(call).filter(|_| body.contains("self")) {
+        Some(ty) => {
+            let _ = writeln!(out, "    {constant}{ty} *const self = instance;");
+        }
+        None => out.push_str("    (void)instance;\n"),
+    }
+    match call.cx.shape_of(call.unit, call.id).cold.filter(|_| body.contains("cold->")) {
+        Some(cold) => {
+            let _ = writeln!(out, "    const struct {} *const cold = parameters;", call.cx.layout.colds[cold].tag);
+        }
+        None => out.push_str("    (void)parameters;\n"),
+    }
+}
+
+fn adapter(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, code: &str, entry: Entry) -> String {
+    let mut body = String::from("    ");
+    bodies::function_call(&mut body, statics, call, call.block().unit, entry);
+    body.push_str(";\n");
+    let name = statics.name(&format!("{}_{code}", if entry == Entry::Tune { "derive" } else { "start" }));
+    let _ = writeln!(out, "static void {name}(void *instance, const void *parameters)\n{{");
+    pointers(out, call, &body, "");
+    let _ = writeln!(out, "{body}}}\n");
+    name
+}
+
+fn check_adapter(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, code: &str) -> String {
+    let mut body = String::new();
+    check::ranges(&mut body, statics, call);
+    let judged = match call.block().unit {
+        None => call.code().has(Entry::Check),
+        Some(inner) => has_body(&call.cx.unit_layout(inner).facts, Entry::Check),
+    };
+    if judged {
+        body.push_str("    return ");
+        bodies::function_call(&mut body, statics, call, call.block().unit, Entry::Check);
+        body.push_str(";\n");
+    } else {
+        body.push_str("    return 0;\n");
+    }
+    let name = statics.name(&format!("check_{code}"));
+    let arguments = "const void *instance, const void *parameters, pcl2_real *left";
+    let _ = writeln!(out, "static int32_t {name}({arguments})\n{{");
+    pointers(out, call, &body, "const ");
+    if !judged {
+        out.push_str("    (void)left;\n");
+    }
+    let _ = writeln!(out, "{body}}}\n");
+    name
+}
+
+/// The places of the parameters in the map's order.
+fn places(out: &mut String, cx: &Context<'_>, statics: &mut Statics, id: BlockId, code: &str) -> (String, usize) {
+    let block = cx.program.main().block(id);
+    let call = Call::new(cx, UnitId(0), id, Caller::Adapter, None);
+    let shape = cx.shape_of(UnitId(0), id);
+    let instance = instance_type(&call).unwrap_or_default();
+    let cold = shape.cold.map_or("", |cold| &cx.layout.colds[cold].tag);
+    let params = cx.code(block.decl).decl.params.iter().enumerate();
+    let mut count = 0;
+    let mut text = String::new();
+    for (i, param) in params.filter(|(_, param)| !param.fixed && is_point(&param.ty, block)) {
+        let elements = place_elements(&param.ty, &block.sizes);
+        let kind = if element_scalar(&param.ty) == Scalar::Int { "PCL2_INT" } else { "PCL2_REAL" };
+        let _ = match parameter_home(cx, UnitId(0), id, i) {
+            Home::Hot(name) => writeln!(text, "    {{offsetof({instance}, {name}), {elements}, {kind}, 0}},"),
+            Home::Cold(name) => writeln!(text, "    {{offsetof(struct {cold}, {name}), {elements}, {kind}, 1}},"),
+            Home::Literal => writeln!(text, "    {{0, 0, {kind}, 0}},"),
+        };
+        count += 1;
+    }
+    let name = statics.name(&format!("places_{code}"));
+    let _ = writeln!(out, "static const struct pcl2_place {name}[{count}] = {{\n{text}}};\n");
+    (name, count)
+}
+
+struct Code {
+    check: Option<String>,
+    tune: Option<String>,
+    init: Option<String>,
+    places: (String, usize),
+}
+
+fn code_struct(out: &mut String, statics: &mut Statics, code: &str, parts: &Code) -> String {
+    let name = statics.name(&format!("code_{code}"));
+    let or_null = |part: &Option<String>| part.clone().unwrap_or_else(|| "NULL".to_owned());
+    let _ = writeln!(
+        out,
+        "static const struct pcl2_code {name} = {{{}, {}, {}, {}, {}}};\n",
+        or_null(&parts.check),
+        or_null(&parts.tune),
+        or_null(&parts.init),
+        parts.places.0,
+        parts.places.1
+    );
+    name
+}
+
+fn cell_code(
+    out: &mut String,
+    cx: &Context<'_>,
+    statics: &mut Statics,
+    block: &Block,
+    port: usize,
+    ty: Type,
+) -> String {
+    let code = cx.code(block.decl);
+    let (declared, suffix) = (code.ports[port], format!("{}_{}", code.decl.name, code.ports[port].name));
+    let mut body = String::new();
+    let operand = |out: &mut String, _: &mut Statics, _: usize| {
+        out.push('0');
+        Scalar::Int
+    };
+    let (value, count) = if ty.is_scalar() { ("*value", None) } else { ("value", Some(ty.elements())) };
+    let place = Checked { tail: &declared.tail, scalar: facts::element_scalar(&declared.ty), number: 1 };
+    check::range(&mut body, statics, &place, value, count, &block.sizes, cx.program.width, &operand);
+    let check = (!body.is_empty()).then(|| {
+        let name = statics.name(&format!("check_{suffix}"));
+        let element = kernel::c_scalar(ty.scalar);
+        let arguments = "const void *instance, const void *parameters, pcl2_real *left";
+        let _ = writeln!(out, "static int32_t {name}({arguments})\n{{");
+        let _ = writeln!(out, "    const {element} *const value = instance;\n    (void)parameters;\n    (void)left;");
+        let _ = writeln!(out, "{body}    return 0;\n}}\n");
+        name
+    });
+    let places = statics.name(&format!("places_{suffix}"));
+    let kind = if ty.scalar == Scalar::Int { "PCL2_INT" } else { "PCL2_REAL" };
+    let _ = writeln!(out, "static const struct pcl2_place {places}[1] = {{\n    {{0, {}, {kind}, 0}},\n}};\n", ty.elements());
+    code_struct(out, statics, &suffix, &Code { check, tune: None, init: None, places: (places, 1) })
+}
