@@ -4,7 +4,7 @@ mod place;
 mod set;
 mod wire;
 
-pub use set::{Refusal, cell_refusal};
+pub use set::{Refusal, cell_refusal, judge};
 
 use crate::ffi::{Bound, NoRoom, Tape};
 use crate::health::Health;
@@ -105,8 +105,8 @@ impl<'a> Machine<'a> {
         let health = Health::default();
         let mut machine =
             Machine { program, bound, body, shared, cells, images, ranges, checks, loops, scan: 0, health };
-        for (at, fill) in &store.fills {
-            machine.fill(*at, *fill);
+        for (at, first) in &store.fills {
+            fill(&machine.bound, program.width, *at, *first);
         }
         machine.start();
         Ok(machine)
@@ -181,13 +181,7 @@ impl<'a> Machine<'a> {
     }
 
     fn write(&self, probe: Probe, value: Number) {
-        match (probe.kind, value) {
-            (Kind::Int, Number::Int(value)) => self.bound.write4(probe.at, value.to_ne_bytes()),
-            (Kind::Time, Number::Time(value)) => self.bound.write8(probe.at, value.to_ne_bytes()),
-            (Kind::Double, value) => self.bound.write8(probe.at, value.to_real().wide.to_ne_bytes()),
-            (Kind::Single, value) => self.bound.write4(probe.at, value.to_real().narrow.to_ne_bytes()),
-            (Kind::Int | Kind::Time, _) => {}
-        }
+        write(&self.bound, probe, value);
     }
 
     fn locate(&self, point: &Point) -> usize {
@@ -207,34 +201,46 @@ impl<'a> Machine<'a> {
             }
         }
     }
+}
 
-    fn real_kind(&self) -> Kind {
-        match self.program.width {
-            Width::F64 => Kind::Double,
-            Width::F32 => Kind::Single,
-        }
+fn real_kind(width: Width) -> Kind {
+    match width {
+        Width::F64 => Kind::Double,
+        Width::F32 => Kind::Single,
     }
+}
 
-    fn fill(&self, at: usize, fill: Fill) {
-        match fill {
-            Fill::Int(value) => self.bound.write4(at, value.to_ne_bytes()),
-            Fill::Time(value) => self.bound.write8(at, value.to_ne_bytes()),
-            Fill::Text(text) => {
-                let bytes: Vec<u8> = text.bytes().chain([0]).collect();
-                for (i, chunk) in bytes.chunks(8).enumerate() {
-                    let mut word = [0; 8];
-                    word[..chunk.len()].copy_from_slice(chunk);
-                    self.bound.write8(at + i * 8, word);
-                }
+/// Writes a number where a number of this kind stands.
+fn write(bound: &Bound, probe: Probe, value: Number) {
+    match (probe.kind, value) {
+        (Kind::Int, Number::Int(value)) => bound.write4(probe.at, value.to_ne_bytes()),
+        (Kind::Time, Number::Time(value)) => bound.write8(probe.at, value.to_ne_bytes()),
+        (Kind::Double, value) => bound.write8(probe.at, value.to_real().wide.to_ne_bytes()),
+        (Kind::Single, value) => bound.write4(probe.at, value.to_real().narrow.to_ne_bytes()),
+        (Kind::Int | Kind::Time, _) => {}
+    }
+}
+
+/// Writes what stands in the storage before the first scan.
+fn fill(bound: &Bound, width: Width, at: usize, fill: Fill<'_>) {
+    match fill {
+        Fill::Int(value) => bound.write4(at, value.to_ne_bytes()),
+        Fill::Time(value) => bound.write8(at, value.to_ne_bytes()),
+        Fill::Text(text) => {
+            let bytes: Vec<u8> = text.bytes().chain([0]).collect();
+            for (i, chunk) in bytes.chunks(8).enumerate() {
+                let mut word = [0; 8];
+                word[..chunk.len()].copy_from_slice(chunk);
+                bound.write8(at + i * 8, word);
             }
-            Fill::Value(scalar, elements, value) => {
-                let (kind, bytes) = match scalar {
-                    Scalar::Int => (Kind::Int, 4),
-                    Scalar::Real => (self.real_kind(), self.program.width.bytes()),
-                };
-                for i in 0..elements {
-                    self.write(Probe { at: at + i * bytes, kind }, element(value, i, self.program.width));
-                }
+        }
+        Fill::Value(scalar, elements, value) => {
+            let (kind, bytes) = match scalar {
+                Scalar::Int => (Kind::Int, 4),
+                Scalar::Real => (real_kind(width), width.bytes()),
+            };
+            for i in 0..elements {
+                write(bound, Probe { at: at + i * bytes, kind }, element(value, i, width));
             }
         }
     }

@@ -77,6 +77,8 @@ pub(crate) struct Store<'a> {
     pub(crate) converts: Vec<Op>,
     /// Where the conversions of each block of the program's own unit start.
     pub(crate) convert_starts: Vec<usize>,
+    /// Only parameters get places.
+    params_only: bool,
     kernels: Vec<Option<Kernel>>,
     nodes: usize,
 }
@@ -92,24 +94,25 @@ pub(crate) fn width_of(scalar: Scalar, width: Width) -> usize {
 impl<'a> Store<'a> {
     /// Finds the kernels of a program. A user's own C is not in this binary.
     pub(crate) fn new(program: &'a Program) -> Result<Store<'a>, Unsupported> {
-        let find = |decl: &Decl| match (decl.is_composite(), decl.user) {
-            (true, _) => Ok(None),
-            (false, true) => Err(Unsupported::OwnC(decl.name.clone())),
-            (false, false) => match Kernel::find(&decl.name, &decl.stem, program.width) {
-                Some(kernel) if kernel.offsets().len() == kernel::members(decl).len() => Ok(Some(kernel)),
-                _ => Err(Unsupported::OwnC(decl.name.clone())),
-            },
+        let mut store = Store::params_only(program);
+        store.params_only = false;
+        for (kernel, decl) in store.kernels.iter().zip(&program.decls) {
+            if kernel.is_none() && !decl.is_composite() {
+                return Err(Unsupported::OwnC(decl.name.clone()));
+            }
+        }
+        Ok(store)
+    }
+
+    /// For judging parameters: blocks without a kernel here are not judged.
+    pub(crate) fn params_only(program: &'a Program) -> Store<'a> {
+        let find = |decl: &Decl| {
+            let kernel = Kernel::find(&decl.name, &decl.stem, program.width).filter(|_| !decl.user);
+            kernel.filter(|kernel| kernel.offsets().len() == kernel::members(decl).len())
         };
-        let kernels = program.decls.iter().map(find).collect::<Result<_, _>>()?;
-        Ok(Store {
-            program,
-            bytes: 0,
-            fills: Vec::new(),
-            converts: Vec::new(),
-            convert_starts: Vec::new(),
-            kernels,
-            nodes: 0,
-        })
+        let kernels = program.decls.iter().map(find).collect();
+        let (fills, converts, convert_starts) = (Vec::new(), Vec::new(), Vec::new());
+        Store { program, bytes: 0, fills, converts, convert_starts, params_only: true, kernels, nodes: 0 }
     }
 
     /// Some bytes, aligned to 8.
@@ -207,7 +210,8 @@ impl<'a> Store<'a> {
         }
     }
 
-    fn params(&mut self, unit: UnitId, block: &'a Block, own: &[usize]) -> Result<Vec<usize>, Unsupported> {
+    /// Places the parameters of one block.
+    pub(crate) fn params(&mut self, unit: UnitId, block: &'a Block, own: &[usize]) -> Result<Vec<usize>, Unsupported> {
         let decl = self.program.decl(block.decl);
         let mut places = Vec::with_capacity(block.params.len());
         for (param, place) in block.params.iter().zip(&decl.params) {
@@ -298,6 +302,11 @@ impl<'a> Store<'a> {
         signals: &[usize],
     ) -> Result<Node, Unsupported> {
         let kernel = self.kernels[block.decl.0 as usize];
+        if self.params_only {
+            let (outputs, memory, tuned) = (vec![NOWHERE; block.outputs.len()], Vec::new(), Vec::new());
+            let (decl, instance, status) = (block.decl, NOWHERE, None);
+            return Ok(Node { decl, kernel, instance, status, outputs, params, memory, tuned, inner: None });
+        }
         let instance = self.take(kernel.map_or(0, Kernel::size))?;
         let members = kernel::members(decl);
         let offsets = kernel.map_or(&[][..], Kernel::offsets);

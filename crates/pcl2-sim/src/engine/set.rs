@@ -1,15 +1,19 @@
 //! What the outside writes before a scan: inputs at once, parameters and operator cells as one set or not at all.
 
-use super::{Machine, Node, Probe};
-use crate::ffi::Tape;
-use crate::health;
+use super::place::{Node, Store};
+use super::wire::{self, Ranges, Shared};
+use super::{Machine, Probe};
+use crate::ffi::{Bound, Tape};
+use crate::health::{self, Health};
 use crate::names::Names;
+use crate::number::Number;
 use crate::stimulus::Event;
 use pcl2_lang::bounds;
 use pcl2_lang::kernel;
 use pcl2_lang::model::{Access, Place};
-use pcl2_lang::program::{Block, BlockId};
+use pcl2_lang::program::{Block, BlockId, DeclId, Program, UnitId};
 use pcl2_lang::types::{Scalar, Type, Value, Width};
+use pcl2_lang::verify::Verified;
 use std::fmt;
 
 /// Why a set of parameters is refused.
@@ -34,7 +38,7 @@ impl Machine<'_> {
     pub fn apply(&mut self, names: &Names, events: &[Event]) -> Result<(), Refusal> {
         let mut old = Vec::new();
         let mut blocks = Vec::new();
-        let mut refusal = None;
+        let mut cells = Vec::new();
         for event in events {
             let point = names.point(event.element);
             let probe = self.probe(names, event.element);
@@ -45,7 +49,7 @@ impl Machine<'_> {
                     self.write(probe, event.value);
                     match place {
                         Place::Param(block, _) => blocks.push(block),
-                        _ => refusal = refusal.or_else(|| cell_refusal(names, event)),
+                        _ => cells.push(event),
                     }
                 }
                 (Access::Signal | Access::State, _) => {}
@@ -53,7 +57,9 @@ impl Machine<'_> {
         }
         blocks.sort();
         blocks.dedup();
-        refusal = refusal.or_else(|| blocks.iter().find_map(|block| self.judge(*block)));
+        cells.sort_by_key(|event| event.element);
+        let refusal = blocks.iter().find_map(|block| self.judge(*block));
+        let refusal = refusal.or_else(|| cells.iter().find_map(|event| cell_refusal(names, event)));
         match refusal {
             None => self.derive(&blocks),
             Some(_) => self.restore(&old, &blocks),
@@ -77,7 +83,7 @@ impl Machine<'_> {
         }
     }
 
-    fn restore(&mut self, old: &[(Probe, crate::number::Number)], blocks: &[BlockId]) {
+    fn restore(&mut self, old: &[(Probe, Number)], blocks: &[BlockId]) {
         for (probe, value) in old.iter().rev() {
             self.write(*probe, *value);
         }
@@ -119,12 +125,12 @@ impl Machine<'_> {
         };
         let kind = match ty.scalar {
             Scalar::Int => super::Kind::Int,
-            Scalar::Real => self.real_kind(),
+            Scalar::Real => super::real_kind(self.program.width),
         };
         let bytes = super::place::width_of(ty.scalar, self.program.width);
         let read = |i: usize| self.read(Probe { at: node.params[param] + i * bytes, kind });
         let int = |i: usize| match read(i) {
-            crate::number::Number::Int(value) => value,
+            Number::Int(value) => value,
             _ => 0,
         };
         match (ty.scalar, ty) {
@@ -135,17 +141,74 @@ impl Machine<'_> {
         }
     }
 
-    fn check(&mut self, check: usize) -> Option<String> {
-        let kind = self.real_kind();
-        let left = [0, 1].map(|i| Probe { at: self.shared.left + i * self.program.width.bytes(), kind });
-        left.iter().for_each(|probe| self.write(*probe, crate::number::Number::Double(0.0)));
-        self.run_tape(Tape::Check, check..check + 1);
-        let status = i32::from_ne_bytes(self.bound.read4(self.shared.verdict));
-        let index = usize::try_from(status).ok()?.checked_sub(1)?;
-        let decl = self.program.decl(*self.checks.get(check)?);
-        let text = decl.faults.get(index).map_or("refused", |fault| fault.text.as_str());
-        Some(health::with_reals(text, left.map(|probe| self.read(probe).to_f64()), self.program.width))
+    fn check(&self, check: usize) -> Option<String> {
+        verdict(self.program, &self.bound, self.shared, *self.checks.get(check)?, check)
     }
+}
+
+/// What one check on the tape says: the text of its fault, with the numbers that it left.
+fn verdict(program: &Program, bound: &Bound, shared: Shared, decl: DeclId, check: usize) -> Option<String> {
+    let bytes = program.width.bytes();
+    for i in 0..bytes / 4 * 2 {
+        bound.write4(shared.left + i * 4, [0; 4]);
+    }
+    bound.run(Tape::Check, check..check + 1, 0, &mut Health::default());
+    let status = i32::from_ne_bytes(bound.read4(shared.verdict));
+    let index = usize::try_from(status).ok()?.checked_sub(1)?;
+    let text = program.decl(decl).faults.get(index).map_or("refused", |fault| fault.text.as_str());
+    let left = [shared.left, shared.left + bytes].map(|at| match program.width {
+        Width::F64 => f64::from_ne_bytes(bound.read8(at)),
+        Width::F32 => f64::from(f32::from_ne_bytes(bound.read4(at))),
+    });
+    Some(health::with_reals(text, left, program.width))
+}
+
+/// What the kernels' checks refuse of a program as it is written, at most one complaint a block. C of the user's own
+/// is not asked, and neither is what depends on a period that is not known.
+pub fn judge(program: &Verified) -> Vec<Refusal> {
+    let program = program.program();
+    let mut judges: Vec<bool> = vec![false; program.units.len()];
+    for (u, unit) in program.units.iter().enumerate().rev() {
+        judges[u] = unit.blocks.iter().any(|block| is_judged(program, block, &judges));
+    }
+    let mut store = Store::params_only(program);
+    let mut nodes = Vec::new();
+    for (i, block) in program.main().blocks.iter().enumerate().filter(|(_, block)| is_judged(program, block, &judges)) {
+        let Ok(params) = store.params(UnitId(0), block, &[]) else {
+            return Vec::new();
+        };
+        match store.node(block, params, &[], 0) {
+            Ok(node) => nodes.push((BlockId(i as u32), node)),
+            Err(_) => return Vec::new(),
+        }
+    }
+    ask(program, &mut store, &mut nodes).unwrap_or_default()
+}
+
+fn is_judged(program: &Program, block: &Block, judges: &[bool]) -> bool {
+    match block.unit {
+        Some(unit) => judges[unit.0 as usize],
+        None => program.decl(block.decl).check,
+    }
+}
+
+fn ask(program: &Program, store: &mut Store<'_>, nodes: &mut [(BlockId, Node)]) -> Option<Vec<Refusal>> {
+    if nodes.is_empty() {
+        return None;
+    }
+    let wired = wire::wire_checks(store, nodes).ok()?;
+    let bound = Bound::new(&wired.plan, program.width).ok()?;
+    for (at, fill) in &store.fills {
+        super::fill(&bound, program.width, *at, *fill);
+    }
+    let mut health = Health::default();
+    bound.run(Tape::Convert, 0..bound.len(Tape::Convert), 0, &mut health);
+    let refusal = |((id, _), ranges): (&(BlockId, Node), &Ranges)| {
+        let check = |check| verdict(program, &bound, wired.shared, *wired.checks.get(check)?, check);
+        let message = ranges.check.clone().find_map(check)?;
+        Some(Refusal { block: *id, title: health::block_title(program, *id), message })
+    };
+    Some(nodes.iter().zip(&wired.ranges).filter_map(refusal).collect())
 }
 
 /// Whether an operator cell refuses a value: it must be finite and in the port's declared range.

@@ -5,9 +5,7 @@ use super::place::{Body, Fill, NOWHERE, Node, Store, has_slot, width_of};
 use crate::ffi::{Op, Plan, Slot, Tape};
 use pcl2_lang::decl::{Decl, PortDecl};
 use pcl2_lang::kernel::{self, Arg, Entry};
-use pcl2_lang::program::{
-    Block, BlockId, Program, Role, SectionKind, Signal, SignalId, Source, Tracked, Unit, UnitId, Writer,
-};
+use pcl2_lang::program::{Block, BlockId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer};
 use pcl2_lang::types::{Scalar, Shape, Type};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -43,7 +41,12 @@ pub(crate) struct Wiring<'a, 'b> {
     images: Vec<usize>,
     sizes: FxHashMap<i32, usize>,
     periods: FxHashMap<i64, usize>,
+    entries: &'static [(Entry, Tape)],
 }
+
+const ALL: &[(Entry, Tape)] =
+    &[(Entry::Check, Tape::Check), (Entry::Tune, Tape::Tune), (Entry::Init, Tape::Init), (Entry::Step, Tape::Step)];
+const CHECKS: &[(Entry, Tape)] = &[(Entry::Check, Tape::Check)];
 
 /// Everything that the second pass finds out.
 #[derive(Debug)]
@@ -72,32 +75,30 @@ struct Context<'c> {
 
 /// Wires all blocks. Composite ports become known on the way, so the body is completed too.
 pub(crate) fn wire(store: &mut Store, body: &mut Body) -> Result<Wired, Unsupported> {
-    let program = store.program;
-    let left = store.take(2 * program.width.bytes())?;
-    let verdict = store.take(4)?;
-    let work = NOWHERE;
-    let cells =
-        program.main().cells.iter().map(|cell| store.constant(cell.ty, &cell.initial)).collect::<Result<_, _>>()?;
-    let images = program
-        .images
-        .iter()
-        .map(|image| store.take(width_of(image.scalar, program.width)))
-        .collect::<Result<_, _>>()?;
-    let shared = Shared { verdict, left, work };
-    let mut cells_by_block: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
-    for (i, cell) in program.main().cells.iter().enumerate() {
-        cells_by_block.entry(cell.block.0).or_default().push(i);
-    }
-    let (sizes, periods) = (FxHashMap::default(), FxHashMap::default());
-    let plan = Plan::default();
-    let mut wiring = Wiring { store, program, plan, shared, cells, cells_by_block, images, sizes, periods };
-    wiring.shared.work = wiring.store.take(wiring.largest_work())?;
+    let mut wiring = Wiring::new(store, ALL)?;
     let (ranges, checks) = wiring.main(body)?;
     wiring.publish(body, true);
-    let Wiring { mut plan, shared, cells, images, store, .. } = wiring;
-    plan.bytes = store.bytes;
-    *plan.tape(Tape::Convert) = std::mem::take(&mut store.converts);
-    Ok(Wired { plan, shared, cells, images, ranges, checks })
+    Ok(wiring.finish(ranges, checks))
+}
+
+/// Wires the checks of some blocks of the program's own unit. One that needs a period which is not known has none.
+pub(crate) fn wire_checks(store: &mut Store, nodes: &mut [(BlockId, Node)]) -> Result<Wired, Unsupported> {
+    let mut wiring = Wiring::new(store, CHECKS)?;
+    let program = wiring.program;
+    let signals = vec![NOWHERE; program.main().signals.len()];
+    let (mut ranges, mut checks) = (Vec::new(), Vec::new());
+    for (id, node) in nodes {
+        let section = program.sections.iter().find(|section| (section.first..section.end).contains(&id.0));
+        let period = program.period.zip(section).map(|(scan, section)| section.period(scan, program.substeps));
+        let context = Context { signals: &signals, period, nested: false, outer_status: None, top: id.0 };
+        let start = checks.len();
+        match wiring.node(program.main(), *id, node, &context, &mut checks) {
+            Ok(()) => ranges.push(Ranges { check: start..checks.len(), ..Ranges::default() }),
+            Err(Unsupported::NeedsPeriod(_)) => ranges.push(Ranges { check: start..start, ..Ranges::default() }),
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(wiring.finish(ranges, checks))
 }
 
 impl Plan {
@@ -108,7 +109,34 @@ impl Plan {
 
 type Checks = Vec<pcl2_lang::program::DeclId>;
 
-impl<'a> Wiring<'a, '_> {
+impl<'a, 'b> Wiring<'a, 'b> {
+    fn new(store: &'b mut Store<'a>, entries: &'static [(Entry, Tape)]) -> Result<Wiring<'a, 'b>, Unsupported> {
+        let program = store.program;
+        let left = store.take(2 * program.width.bytes())?;
+        let verdict = store.take(4)?;
+        let mut cells = Vec::with_capacity(program.main().cells.len());
+        let mut cells_by_block: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+        for (i, cell) in program.main().cells.iter().enumerate() {
+            cells.push(store.constant(cell.ty, &cell.initial)?);
+            cells_by_block.entry(cell.block.0).or_default().push(i);
+        }
+        let mut images = Vec::with_capacity(program.images.len());
+        for image in &program.images {
+            images.push(store.take(width_of(image.scalar, program.width))?);
+        }
+        let work = store.take(largest_work(store))?;
+        let shared = Shared { verdict, left, work };
+        let (plan, sizes, periods) = (Plan::default(), FxHashMap::default(), FxHashMap::default());
+        Ok(Wiring { store, program, plan, shared, cells, cells_by_block, images, sizes, periods, entries })
+    }
+
+    fn finish(self, ranges: Vec<Ranges>, checks: Checks) -> Wired {
+        let Wiring { mut plan, shared, cells, images, store, .. } = self;
+        plan.bytes = store.bytes;
+        *plan.tape(Tape::Convert) = std::mem::take(&mut store.converts);
+        Wired { plan, shared, cells, images, ranges, checks }
+    }
+
     fn main(&mut self, body: &mut Body) -> Result<(Vec<Ranges>, Checks), Unsupported> {
         let unit = self.program.main();
         let mut ranges = Vec::with_capacity(unit.blocks.len());
@@ -239,12 +267,7 @@ impl<'a> Wiring<'a, '_> {
         checks: &mut Checks,
     ) -> Result<(), Unsupported> {
         let decl = self.program.decl(block.decl);
-        for (entry, tape) in [
-            (Entry::Check, Tape::Check),
-            (Entry::Tune, Tape::Tune),
-            (Entry::Init, Tape::Init),
-            (Entry::Step, Tape::Step),
-        ] {
+        for (entry, tape) in self.entries.iter().copied() {
             let Some(function) = node.kernel.and_then(|kernel| kernel.function(entry)) else {
                 continue;
             };
@@ -440,15 +463,6 @@ impl<'a> Wiring<'a, '_> {
         }
     }
 
-    fn largest_work(&self) -> usize {
-        let blocks = self.program.units.iter().flat_map(|unit| &unit.blocks);
-        let work = blocks.map(|block| {
-            let decl = self.program.decl(block.decl);
-            decl.work.iter().map(|field| self.store.field_bytes(field, &block.sizes).next_multiple_of(8)).sum()
-        });
-        work.max().unwrap_or(0)
-    }
-
     /// Declared initial outputs reach variables with several writers: from the first that has one.
     fn publish(&mut self, body: &Body, main: bool) {
         let unit = self.program.unit(body.unit);
@@ -475,25 +489,33 @@ impl<'a> Wiring<'a, '_> {
     }
 }
 
+fn largest_work(store: &Store) -> usize {
+    let blocks = store.program.units.iter().flat_map(|unit| &unit.blocks);
+    let work = blocks.map(|block| {
+        let fields = &store.program.decl(block.decl).work;
+        fields.iter().map(|field| store.field_bytes(field, &block.sizes).next_multiple_of(8)).sum()
+    });
+    work.max().unwrap_or(0)
+}
+
 fn initializes(program: &Program, block: BlockId) -> bool {
     let mut sections = program.sections.iter();
     sections.any(|section| section.kind == SectionKind::Initialize && (section.first..section.end).contains(&block.0))
 }
 
-/// Whether a block declares an initial value for an output. A composite does where the block inside does.
+/// Whether init sets an output of a block. A composite's stands where the block inside does, or in a slot.
 fn starts(program: &Program, unit: UnitId, writer: Writer) -> bool {
     let block = program.unit(unit).block(writer.block);
     let decl = program.decl(block.decl);
-    let output = pcl2_lang::model::output_decl(decl, &block.sizes, writer.output as usize);
-    if output.is_some_and(|output| decl.start.contains(&output)) {
-        return true;
-    }
     let Some(inner) = block.unit else {
+        let output = pcl2_lang::model::output_decl(decl, &block.sizes, writer.output as usize);
+        return output.is_some_and(|output| decl.start.contains(&output));
+    };
+    let Some(signal) = program.unit(inner).outputs.get(writer.output as usize) else {
         return false;
     };
-    let signal =
-        program.unit(inner).outputs.get(writer.output as usize).map(|id: &SignalId| program.unit(inner).signal(*id));
-    signal.is_some_and(|signal| signal.writers.iter().any(|writer| !writer.inout && starts(program, inner, *writer)))
+    let signal = program.unit(inner).signal(*signal);
+    has_slot(signal) || signal.writers.first().is_some_and(|writer| starts(program, inner, *writer))
 }
 
 /// Whether a block writes the signal that it reads, so that the read must come first.
