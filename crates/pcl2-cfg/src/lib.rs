@@ -18,11 +18,13 @@ mod files;
 mod number;
 mod order;
 mod params;
+mod period;
 mod sections;
 mod signals;
 mod sizes;
 
 pub use files::{FileText, wanted_files};
+pub use period::check_period;
 
 use draft::Scope;
 use pcl2_lang::catalogue::Catalogue;

@@ -49,6 +49,19 @@ pub(crate) struct Project {
 
 /// Reads and checks the program at a path.
 pub(crate) fn load(path: &Path, common: &CommonArgs) -> Result<Project, Outcome> {
+    load_for(path, common, Use::Check)
+}
+
+/// What a program is loaded for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Use {
+    /// To be checked: what depends on a period is checked when it is known.
+    Check,
+    /// To be built or run: a period that is needed must be given.
+    Run,
+}
+
+fn load_for(path: &Path, common: &CommonArgs, purpose: Use) -> Result<Project, Outcome> {
     let mut loader = Loader {
         sources: Sources::default(),
         symbols: Symbols::default(),
@@ -61,7 +74,7 @@ pub(crate) fn load(path: &Path, common: &CommonArgs) -> Result<Project, Outcome>
     let period = period(common, &place.config, &mut loader.diagnostics)?;
     let catalogue = loader.catalogue(&place, common);
     let (verified, lines) = match place.source {
-        Some(file) => loader.compile(file, &place, &catalogue, common, (width, period)),
+        Some(file) => loader.compile(file, &place, &catalogue, common, (width, period), purpose),
         None => (None, 0),
     };
     let mut diagnostics = loader.diagnostics;
@@ -82,7 +95,7 @@ pub(crate) fn load(path: &Path, common: &CommonArgs) -> Result<Project, Outcome>
 
 /// Loads a program for a command that needs it whole: prints the diagnostics, and stops at errors.
 pub(crate) fn load_verified(path: &Path, common: &CommonArgs) -> Result<(Project, Verified), Outcome> {
-    let mut project = load(path, common)?;
+    let mut project = load_for(path, common, Use::Run)?;
     console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
     match project.verified.take() {
         Some(verified) => Ok((project, verified)),
@@ -229,6 +242,7 @@ impl Loader {
         catalogue: &Catalogue,
         common: &CommonArgs,
         (width, period): (Width, Option<i64>),
+        purpose: Use,
     ) -> (Option<Verified>, usize) {
         let clock = Instant::now();
         let tree = syntax::parse(&self.sources, file, &mut self.symbols, &mut self.diagnostics);
@@ -259,6 +273,7 @@ impl Loader {
             return (None, lines);
         };
         self.missing_kernels(&program.decls);
+        pcl2_cfg::check_period(&program, purpose == Use::Run, &mut self.diagnostics);
         let clock = Instant::now();
         let verified = match verify(program) {
             Ok(verified) => Some(verified),
