@@ -2,6 +2,7 @@
 //!
 //! Pure: text in, text out. One [`Context`](context) is looked up and laid out, then each file is written from it.
 
+mod amalgamate;
 mod args;
 mod bodies;
 mod calls;
@@ -32,6 +33,7 @@ mod tune;
 #[cfg(test)]
 mod tests;
 
+pub use amalgamate::amalgamate;
 pub use names::program_name;
 pub use runtime::files as runtime_files;
 

@@ -4,6 +4,7 @@
 //! they understood together with diagnostics.
 
 pub mod ast;
+pub mod border;
 pub mod bounds;
 pub mod catalogue;
 pub mod codes;
