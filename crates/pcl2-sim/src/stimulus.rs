@@ -107,12 +107,17 @@ pub fn parse_set(text: &str, names: &Names, width: pcl2_lang::types::Width) -> R
     Ok(Event { scan, element, value })
 }
 
-/// One list in order of the scan. Within a scan the sets come after the stimulus and win.
+/// One list in order of the scan. Within a scan the sets come after the stimulus and win: of several events for one
+/// element the last stays.
 pub fn merge(stimulus: Vec<Event>, sets: impl IntoIterator<Item = Event>) -> Vec<Event> {
     let mut events = stimulus;
     events.extend(sets);
     events.sort_by_key(|event| event.scan);
-    events
+    let mut seen = FxHashSet::default();
+    let mut kept: Vec<Event> =
+        events.into_iter().rev().filter(|event| seen.insert((event.scan, event.element))).collect();
+    kept.reverse();
+    kept
 }
 
 /// What the csv reader says, in our counting.

@@ -192,7 +192,8 @@ impl<'a> Store<'a> {
         Ok(Body { unit, signals, nodes })
     }
 
-    fn node(
+    /// Places one block.
+    pub(crate) fn node(
         &mut self,
         block: &'a Block,
         params: Vec<usize>,
