@@ -4,6 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    println!("cargo::rerun-if-changed=build.rs");
+    for grammar in ["src/cfg.lalrpop", "src/fc.lalrpop"] {
+        println!("cargo::rerun-if-changed={grammar}");
+    }
     lalrpop::process_src()?;
     let root = Path::new(&std::env::var("CARGO_MANIFEST_DIR")?).join("../..");
     let mut code = String::new();

@@ -11,6 +11,7 @@ mod outcome;
 mod output;
 mod project;
 mod run;
+mod toolchain;
 
 use args::{Cli, Command};
 use clap::Parser;

@@ -20,6 +20,7 @@ mod layout;
 mod map;
 mod names;
 mod rows;
+pub mod runner;
 mod runtime;
 mod shape;
 mod size;
