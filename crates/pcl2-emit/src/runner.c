@@ -5,45 +5,45 @@
 #include "@NAME@.c"
 
 /* The words that start what is written: a row, a refused set, the end. */
-enum { RUN_ROW = 1, RUN_REFUSED = 2, RUN_END = 3 };
+enum { PCL2_RUN_ROW = 1, PCL2_RUN_REFUSED = 2, PCL2_RUN_END = 3 };
 
 /* The script: counts, then columns and parameters (a point in the upper half, an element in the lower one), the scans
  * whose rows are wanted, and events (scan, point and element, bits of the value) in order of the scan. */
-struct run_script {
+struct pcl2_run_script {
     uint64_t scans, columns, parameters, every_row, rows, events;
     const uint64_t *column, *parameter, *row, *event;
 };
 
-static @NAME@ run_self;
+static @NAME@ pcl2_run_self;
 
-static void run_put(uint64_t word)
+static void pcl2_run_put(uint64_t word)
 {
     if (fwrite(&word, sizeof word, 1, stdout) != 1) {
         exit(1);
     }
 }
 
-static char *run_place(int32_t point, int32_t element)
+static char *pcl2_run_place(int32_t point, int32_t element)
 {
     const struct pcl2_point *p = &@NAME@_map.points[point];
     const size_t size = p->type == PCL2_REAL ? sizeof(pcl2_real) : p->type == PCL2_INT ? sizeof(int32_t) : sizeof(int64_t);
-    return (char *)&run_self + p->offset + size * (size_t)element;
+    return (char *)&pcl2_run_self + p->offset + size * (size_t)element;
 }
 
-static int32_t run_point(uint64_t place)
+static int32_t pcl2_run_point(uint64_t place)
 {
     return (int32_t)(place >> 32);
 }
 
-static int32_t run_element(uint64_t place)
+static int32_t pcl2_run_element(uint64_t place)
 {
     return (int32_t)(place & UINT32_MAX);
 }
 
-static uint64_t run_get(uint64_t place)
+static uint64_t pcl2_run_get(uint64_t place)
 {
-    const char *const at = run_place(run_point(place), run_element(place));
-    const uint8_t type = @NAME@_map.points[run_point(place)].type;
+    const char *const at = pcl2_run_place(pcl2_run_point(place), pcl2_run_element(place));
+    const uint8_t type = @NAME@_map.points[pcl2_run_point(place)].type;
     int32_t whole;
     int64_t time;
     pcl2_bits real;
@@ -60,15 +60,15 @@ static uint64_t run_get(uint64_t place)
 }
 
 /* Inputs at once; parameters and operator cells are gathered. */
-static int32_t run_take(const uint64_t *event, struct pcl2_set *set)
+static int32_t pcl2_run_take(const uint64_t *event, struct pcl2_set *set)
 {
-    const int32_t point = run_point(event[1]);
+    const int32_t point = pcl2_run_point(event[1]);
     const struct pcl2_point *const p = &@NAME@_map.points[point];
     const pcl2_bits real = (pcl2_bits)event[2];
     const int32_t whole = (int32_t)(uint32_t)event[2];
     if (p->access == PCL2_TUNABLE || p->access == PCL2_OPERATOR) {
         set->point = point;
-        set->element = run_element(event[1]);
+        set->element = pcl2_run_element(event[1]);
         if (p->type == PCL2_REAL) {
             set->value.real = pcl2_of_bits(real);
         } else {
@@ -77,66 +77,66 @@ static int32_t run_take(const uint64_t *event, struct pcl2_set *set)
         return 1;
     }
     if (p->type == PCL2_REAL) {
-        memcpy(run_place(point, run_element(event[1])), &real, sizeof real);
+        memcpy(pcl2_run_place(point, pcl2_run_element(event[1])), &real, sizeof real);
     } else {
-        memcpy(run_place(point, run_element(event[1])), &whole, sizeof whole);
+        memcpy(pcl2_run_place(point, pcl2_run_element(event[1])), &whole, sizeof whole);
     }
     return 0;
 }
 
 /* The events before one scan; where the next ones start. */
-static uint64_t run_apply(const struct run_script *script, uint64_t first, uint64_t scan, struct pcl2_set *sets)
+static uint64_t pcl2_run_apply(const struct pcl2_run_script *script, uint64_t first, uint64_t scan, struct pcl2_set *sets)
 {
     int32_t n = 0;
     while (first < script->events && script->event[3 * first] <= scan) {
-        n += run_take(&script->event[3 * first], &sets[n]);
+        n += pcl2_run_take(&script->event[3 * first], &sets[n]);
         first++;
     }
     if (n > 0) {
-        const int refused = @NAME@_tune(&run_self, sets, n);
+        const int refused = @NAME@_tune(&pcl2_run_self, sets, n);
         if (refused != 0) {
-            run_put(RUN_REFUSED);
-            run_put(scan);
-            run_put((uint32_t)(refused > 0 ? sets[refused - 1].point : -1));
+            pcl2_run_put(PCL2_RUN_REFUSED);
+            pcl2_run_put(scan);
+            pcl2_run_put((uint32_t)(refused > 0 ? sets[refused - 1].point : -1));
         }
     }
     return first;
 }
 
-static void run_row(const struct run_script *script)
+static void pcl2_run_row(const struct pcl2_run_script *script)
 {
-    run_put(RUN_ROW);
+    pcl2_run_put(PCL2_RUN_ROW);
     for (uint64_t i = 0; i < script->columns; i++) {
-        run_put(run_get(script->column[i]));
+        pcl2_run_put(pcl2_run_get(script->column[i]));
     }
 }
 
-static void run_end(const struct run_script *script)
+static void pcl2_run_end(const struct pcl2_run_script *script)
 {
-    const struct pcl2_health *const health = &run_self.health;
-    run_put(RUN_END);
-    run_put(health->faults);
-    run_put(health->refused);
-    run_put((uint32_t)health->first_block);
-    run_put((uint32_t)health->first_status);
-    run_put(health->first_scan);
-    run_put((uint32_t)health->last_block);
-    run_put((uint32_t)health->last_status);
-    run_put(health->last_scan);
+    const struct pcl2_health *const health = &pcl2_run_self.health;
+    pcl2_run_put(PCL2_RUN_END);
+    pcl2_run_put(health->faults);
+    pcl2_run_put(health->refused);
+    pcl2_run_put((uint32_t)health->first_block);
+    pcl2_run_put((uint32_t)health->first_status);
+    pcl2_run_put(health->first_scan);
+    pcl2_run_put((uint32_t)health->last_block);
+    pcl2_run_put((uint32_t)health->last_status);
+    pcl2_run_put(health->last_scan);
     for (uint64_t i = 0; i < script->parameters; i++) {
-        run_put(run_get(script->parameter[i]));
+        pcl2_run_put(pcl2_run_get(script->parameter[i]));
     }
 }
 
-static void run_all(const struct run_script *script, struct pcl2_set *sets)
+static void pcl2_run_all(const struct pcl2_run_script *script, struct pcl2_set *sets)
 {
     uint64_t event = 0;
     uint64_t row = 0;
     uint64_t scan = 0;
-    @NAME@_init(&run_self);
+    @NAME@_init(&pcl2_run_self);
     while (scan < script->scans) {
         uint64_t end = script->scans;
-        event = run_apply(script, event, scan, sets);
+        event = pcl2_run_apply(script, event, scan, sets);
         if (event < script->events && script->event[3 * event] < end) {
             end = script->event[3 * event];
         }
@@ -145,17 +145,17 @@ static void run_all(const struct run_script *script, struct pcl2_set *sets)
             end = wanted + 1;
         }
         for (; scan < end; scan++) {
-            @NAME@_step(&run_self);
+            @NAME@_step(&pcl2_run_self);
         }
         if (wanted == end - 1) {
-            run_row(script);
+            pcl2_run_row(script);
             row++;
         }
     }
-    run_end(script);
+    pcl2_run_end(script);
 }
 
-static uint64_t *run_read(const char *path)
+static uint64_t *pcl2_run_read(const char *path)
 {
     FILE *const file = fopen(path, "rb");
     uint64_t count;
@@ -175,8 +175,8 @@ int main(int argc, char **argv)
     if (argc != 2) {
         return 1;
     }
-    uint64_t *const words = run_read(argv[1]);
-    struct run_script script = {words[0], words[1], words[2], words[3], words[4], words[5], NULL, NULL, NULL, NULL};
+    uint64_t *const words = pcl2_run_read(argv[1]);
+    struct pcl2_run_script script = {words[0], words[1], words[2], words[3], words[4], words[5], NULL, NULL, NULL, NULL};
     script.column = words + 6;
     script.parameter = script.column + script.columns;
     script.row = script.parameter + script.parameters;
@@ -185,7 +185,7 @@ int main(int argc, char **argv)
     if (sets == NULL) {
         return 1;
     }
-    run_all(&script, sets);
+    pcl2_run_all(&script, sets);
     free(sets);
     free(words);
     return fflush(stdout) == 0 ? 0 : 1;

@@ -36,7 +36,9 @@ impl<'a> Job<'a> {
         let scans = scans(args, names.program.period, stimulus.last)?;
         let columns = match args.record.as_slice() {
             [] => trace::all_signals(names),
-            lists => trace::select(names, &lists.join(",")).map_err(|error| Failure::usage(format!("--record: {error}")))?,
+            lists => {
+                trace::select(names, &lists.join(",")).map_err(|error| Failure::usage(format!("--record: {error}")))?
+            }
         };
         Ok(Job { names, events: stimulus::merge(stimulus.events, sets), scans, columns, params: params(names) })
     }

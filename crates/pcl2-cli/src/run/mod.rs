@@ -1,5 +1,6 @@
 //! `pcl2 run`: prepares what goes in, runs one of the engines, hands out what comes back.
 
+mod compiled;
 mod embedded;
 mod files;
 mod job;
@@ -93,11 +94,14 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
         Ok(loaded) => loaded,
         Err(outcome) => return outcome,
     };
-    let _ = &project;
     let names = Names::new(verified.program());
     let ended = Job::new(args, &names).and_then(|job| {
         let engine = choose(args.engine, &verified)?;
-        execute(args, &job, engine)
+        let recorder = Recorder::new(&job, args.trace.as_deref())?;
+        execute(args, &job, recorder, |recorder| match engine {
+            Some(machine) => embedded::run(&job, machine, recorder),
+            None => compiled::run(&job, &verified, &project, recorder),
+        })
     });
     match ended {
         Ok(()) => Outcome::Done,
@@ -123,13 +127,14 @@ fn choose<'a>(wish: Option<Engine>, verified: &'a pcl2_lang::verify::Verified) -
     }
 }
 
-fn execute(args: &RunArgs, job: &Job<'_>, machine: Option<Machine<'_>>) -> Result<(), Failure> {
+fn execute(
+    args: &RunArgs,
+    job: &Job<'_>,
+    mut recorder: Recorder,
+    engine: impl FnOnce(&mut Recorder) -> Result<Finished, Failure>,
+) -> Result<(), Failure> {
     let to_stdout = args.trace.as_deref().is_some_and(files::is_stdout);
-    let mut recorder = Recorder::new(job, args.trace.as_deref())?;
-    let finished = match machine {
-        Some(machine) => embedded::run(job, machine, &mut recorder)?,
-        None => return Err(Failure::failed("the cc engine is missing")),
-    };
+    let finished = engine(&mut recorder)?;
     let history = recorder.finish()?;
     if let Some(path) = &args.params {
         files::write(path, job.params_text(&finished.params).as_bytes())?;

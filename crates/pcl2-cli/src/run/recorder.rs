@@ -65,6 +65,16 @@ impl Recorder {
         u64::try_from(index * scans / count).map_or(u64::MAX, |end| end.saturating_sub(1)).max(scan)
     }
 
+    /// The scans whose rows are wanted; `None` for every scan.
+    pub(crate) fn samples(&self) -> Option<Vec<u64>> {
+        if self.trace.is_some() {
+            return None;
+        }
+        let first = self.next_sample(0);
+        let following = |scan: &u64| scan.checked_add(1).map(|scan| self.next_sample(scan));
+        Some(std::iter::successors(Some(first), following).take_while(|scan| *scan < self.scans).collect())
+    }
+
     /// Takes what stands after a scan.
     pub(crate) fn row(&mut self, scan: u64, values: &[Number]) -> Result<Recording, Failure> {
         if self.next_sample(scan) == scan {
