@@ -1,12 +1,12 @@
 //! Pass 2: the declaration of each statement, its constants, and an operand for each port.
 
 use crate::Input;
-use crate::draft::{Draft, ENOUGH, Scope};
+use crate::draft::{Draft, Scope};
 use pcl2_lang::ast::{Item as Place, Number, Operand};
 use pcl2_lang::bounds;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{ConstantDecl, Decl, Item, PortDecl};
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
@@ -16,11 +16,15 @@ pub(crate) fn bind<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
     let owner = scope.owner.clone();
     let owner = owner.as_ref().map(|(decl, sizes)| (*decl, sizes.as_slice()));
     for draft in &mut scope.drafts {
-        if diagnostics.len() > ENOUGH {
+        if diagnostic::enough(diagnostics) {
             draft.spoiled = true;
             continue;
         }
         let name = input.symbols.text(draft.statement.code.symbol);
+        if input.catalogue.is_spoiled(name) {
+            draft.spoiled = true;
+            continue;
+        }
         let Some(decl) = input.catalogue.find(name) else {
             diagnostics.push(unknown_code(input, name, draft.statement.code.span));
             draft.spoiled = true;
@@ -155,6 +159,19 @@ impl<'a> Binder<'_, 'a> {
             if let Some(expected) = bounds::check_constant(constant.bounds.as_ref(), i64::from(value), &known) {
                 let message = format!("expected `{}` of {} {expected}, found {value}", constant.name, self.decl.name);
                 self.push(Diagnostic::new(codes::OUT_OF_RANGE, span, message).help(self.form()));
+                return;
+            }
+        }
+        let decl = self.decl;
+        let ports = decl.ports().map(|port| (&port.name, port.group.as_ref()));
+        let outputs = decl.outputs.iter().map(|output| (&output.name, output.group.as_ref()));
+        for (name, group) in ports.chain(outputs) {
+            let count = group.and_then(|group| Some((group, kernel::size(&group.count, &known)?)));
+            let refused = count.and_then(|(group, n)| Some((n, bounds::check_constant(group.bounds.as_ref(), n, &known)?)));
+            if let Some((n, expected)) = refused {
+                let message = format!("expected {expected} ports `{name}` of {}, found {n}", decl.name);
+                self.push(Diagnostic::new(codes::OUT_OF_RANGE, self.draft.statement.code.span, message).help(self.form()));
+                return;
             }
         }
     }
@@ -176,7 +193,9 @@ impl<'a> Binder<'_, 'a> {
     fn group(&mut self, port: &PortDecl, next: &mut std::slice::Iter<'a, Place>) {
         let sizes: Vec<i32> = self.draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
         let Some(count) = kernel::count(port.group.as_ref(), &sizes) else {
-            return self.missing(&format!("the number of ports of the group `{}`", port.name));
+            let message = format!("expected 0 to {} ports `{}` of {}, found another number", kernel::MAX_PORTS, port.name, self.decl.name);
+            self.push(Diagnostic::new(codes::TOO_LARGE, self.draft.statement.code.span, message).help(self.form()));
+            return;
         };
         for _ in 0..count {
             let place = next.next();
@@ -217,7 +236,8 @@ impl<'a> Binder<'_, 'a> {
     fn rest(&mut self, places: &[Place], labels: &[(&str, &'a Place)]) {
         if let Some(place) = places.first() {
             let count = self.draft.statement.inputs.len();
-            let message = format!("expected {} inputs of {}, found {count}", count - places.len(), self.decl.name);
+            let expected = count_word(count - places.len(), "input");
+            let message = format!("expected {expected} of {}, found {count}", self.decl.name);
             self.push(Diagnostic::new(codes::INPUT_COUNT, place.span, message).help(self.form()));
         }
         for (name, place) in labels {
@@ -249,6 +269,11 @@ impl<'a> Binder<'_, 'a> {
     }
 }
 
+/// `1 input`, `2 inputs`
+pub(crate) fn count_word(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
 fn is_optional(item: &Item) -> bool {
     matches!(item, Item::Port(port) if port.default.is_some())
 }
@@ -269,5 +294,6 @@ pub(crate) fn form(decl: &Decl) -> String {
     };
     let items: Vec<String> = decl.items.iter().map(item).collect();
     let params: Vec<&str> = decl.params.iter().map(|param| param.name.as_str()).collect();
-    format!("{} ( {} : {} )", decl.name, items.join(", "), params.join(", "))
+    let padded = |list: String| if list.is_empty() { list } else { format!("{list} ") };
+    format!("{} ( {}: {})", decl.name, padded(items.join(", ")), padded(params.join(", ")))
 }

@@ -15,9 +15,6 @@ use pcl2_lang::symbol::Symbol;
 use pcl2_lang::types::Type;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// More diagnostics than this end a pass: only the first hundred errors are shown.
-pub(crate) const ENOUGH: usize = 1000;
-
 /// One block in the making.
 pub(crate) struct Draft<'a> {
     pub(crate) statement: &'a Statement,
@@ -58,6 +55,8 @@ pub(crate) struct Scope<'a> {
     pub(crate) by_name: FxHashMap<Symbol, SignalId>,
     /// The block of a tag, for its members.
     pub(crate) tags: FxHashMap<Symbol, BlockId>,
+    /// The signal of a tag's output, by the output's name.
+    pub(crate) members: FxHashMap<(Symbol, String), SignalId>,
     /// Blocks and ports by number.
     pub(crate) by_number: FxHashMap<u32, (BlockId, u32)>,
     pub(crate) cells: Vec<Cell>,
@@ -100,6 +99,7 @@ impl<'a> Scope<'a> {
             wires: Vec::new(),
             by_name: FxHashMap::default(),
             tags: FxHashMap::default(),
+            members: FxHashMap::default(),
             by_number: FxHashMap::default(),
             cells: Vec::new(),
             spoiled: FxHashSet::default(),
@@ -135,7 +135,7 @@ pub(crate) fn complete<'a>(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     bind::bind(input, scope, diagnostics);
-    number::number(input, scope, diagnostics);
+    number::number(scope, diagnostics);
     signals::connect(input, scope, diagnostics);
     sizes::solve(input, scope, diagnostics);
     params::read(input, scope, diagnostics);
@@ -155,9 +155,9 @@ pub(crate) fn seal<'a>(
     let mut sections = Vec::new();
     let mut first = 0;
     for (s, (kind, span)) in sectioned.sections.iter().enumerate() {
-        let count = scope.drafts.iter().filter(|draft| draft.section as usize == s).count() as u32;
-        sections.push(Section { kind: *kind, first, end: first + count, span: *span });
-        first += count;
+        let end = scope.drafts.partition_point(|draft| draft.section as usize <= s) as u32;
+        sections.push(Section { kind: *kind, first, end, span: *span });
+        first = end;
     }
     let order = composites.order();
     let initialize = sectioned.sections.iter().position(|(kind, _)| *kind == SectionKind::Initialize);
@@ -262,22 +262,18 @@ fn seal_unit(
 /// The identity of each block: its first output's name or its number, numbered among equals.
 fn identities(scope: &Scope<'_>) -> Vec<String> {
     let base = |draft: &Draft<'_>| {
-        let first = draft.outputs.first().map(|id| scope.wire(*id).name.clone()).unwrap_or_default();
-        if first.is_empty() { draft.number.to_string() } else { first }
+        let first = draft.outputs.first().map(|id| scope.wire(*id).name.as_str()).unwrap_or_default();
+        if first.is_empty() { draft.number.to_string() } else { first.to_owned() }
     };
     let mut names: Vec<String> = scope.drafts.iter().map(base).collect();
-    let mut by_number: Vec<usize> = (0..names.len()).collect();
-    by_number.sort_by_key(|i| scope.drafts[*i].number);
-    let mut count: FxHashMap<String, u32> = FxHashMap::default();
-    for name in &names {
-        *count.entry(name.clone()).or_default() += 1;
-    }
-    let mut seen: FxHashMap<String, u32> = FxHashMap::default();
-    for i in by_number {
-        if count[&names[i]] > 1 {
-            let next = seen.entry(names[i].clone()).or_default();
-            *next += 1;
-            names[i] = format!("{}#{next}", names[i]);
+    for wire in scope.wires.iter().filter(|wire| wire.writers.len() > 1 && !wire.name.is_empty()) {
+        let mut named: Vec<usize> =
+            wire.writers.iter().filter(|writer| writer.output == 0).map(|writer| writer.block.0 as usize).collect();
+        named.sort_by_key(|block| scope.drafts[*block].number);
+        if named.len() > 1 {
+            for (i, block) in named.into_iter().enumerate() {
+                names[block] = format!("{}#{}", wire.name, i + 1);
+            }
         }
     }
     names

@@ -28,7 +28,7 @@ pub use period::check_period;
 
 use draft::Scope;
 use pcl2_lang::catalogue::Catalogue;
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::program::Program;
 use pcl2_lang::source::{FileId, Sources};
 use pcl2_lang::symbol::Symbols;
@@ -85,6 +85,9 @@ pub struct Input<'a> {
 
 /// Compiles a tree. `None` when there are errors.
 pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Program> {
+    if diagnostic::enough(diagnostics) {
+        return None;
+    }
     let sectioned = sections::read(input, diagnostics);
     let mut scope = Scope::program(input, &sectioned);
     let mut composites = composite::Composites::default();

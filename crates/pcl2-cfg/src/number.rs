@@ -1,21 +1,20 @@
 //! Pass 3: the number of each block; blocks then stand in order of execution.
 
-use crate::Input;
-use crate::draft::{Draft, ENOUGH, Scope};
+use crate::draft::{Draft, Scope};
 use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use rustc_hash::FxHashMap;
 
 /// The largest block number.
-const MAX_NUMBER: u32 = i32::MAX as u32;
+pub(crate) const MAX_NUMBER: u32 = i32::MAX as u32;
 
 /// The port that is reached by name only.
 pub(crate) const RETURN_PORT: &str = "bk";
 
 /// Numbers the blocks of a scope and sorts them by section and number.
-pub(crate) fn number<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
+pub(crate) fn number(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let mut last: Option<u32> = None;
     for draft in &mut scope.drafts {
         draft.number = match draft.statement.number {
@@ -39,7 +38,7 @@ pub(crate) fn number<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: 
         }
         last = Some(end.min(u64::from(MAX_NUMBER)) as u32);
     }
-    check_overlap(input, scope, diagnostics);
+    check_overlap(scope, diagnostics);
     scope.drafts.sort_by_key(|draft| (draft.section, draft.number));
 }
 
@@ -48,10 +47,17 @@ pub(crate) fn numbered_ports(draft: &Draft<'_>) -> u32 {
     match draft.decl {
         Some(decl) if draft.statement.outputs.is_empty() => {
             let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
-            output_names(decl, &sizes).iter().filter(|name| *name != RETURN_PORT).count() as u32
+            let count = output_count(decl, &sizes);
+            let returns = decl.outputs.iter().filter(|output| output.group.is_none() && output.name == RETURN_PORT).count();
+            (count - returns) as u32
         }
         _ => 1,
     }
+}
+
+/// How many outputs a code has, groups expanded.
+pub(crate) fn output_count(decl: &Decl, sizes: &[i32]) -> usize {
+    decl.outputs.iter().map(|output| kernel::count(output.group.as_ref(), sizes).unwrap_or(0)).sum()
 }
 
 /// The names of a code's outputs, groups expanded: `y1`, `y2`, ..
@@ -69,11 +75,11 @@ pub(crate) fn output_names(decl: &Decl, sizes: &[i32]) -> Vec<String> {
     names
 }
 
-fn check_overlap(_input: &Input<'_>, scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+fn check_overlap(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let mut taken: FxHashMap<u32, usize> = FxHashMap::default();
     taken.reserve(scope.drafts.len());
     for i in 0..scope.drafts.len() {
-        if diagnostics.len() > ENOUGH {
+        if diagnostic::enough(diagnostics) {
             return;
         }
         let (first, count) = (scope.drafts[i].number, numbered_ports(&scope.drafts[i]).max(1));

@@ -1,15 +1,15 @@
 //! Pass 6: the value of every parameter, in its range.
 
 use crate::Input;
-use crate::bind::form;
-use crate::draft::{ENOUGH, Scope};
+use crate::bind::{count_word, form};
+use crate::draft::Scope;
 use crate::files::{self, FileText};
 use crate::signals::spread;
 use pcl2_lang::ast::{Item as Place, Number, Operand, Statement};
 use pcl2_lang::bounds;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, ParamDecl, TypeExpr};
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use pcl2_lang::program::{ImageWord, Param};
 use pcl2_lang::source::Span;
@@ -26,14 +26,16 @@ pub(crate) fn read<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
         let Some(sizes) = draft.known_sizes() else {
             continue;
         };
-        if diagnostics.len() > ENOUGH {
+        if diagnostic::enough(diagnostics) {
             return;
         }
         let before = diagnostics.len();
         let owner = owner.as_ref().map(|(decl, _)| *decl);
         let mut reader = Reader { input, owner, decl, sizes: &sizes, statement: draft.statement, diagnostics };
         let params = reader.read();
-        reader.check_ranges(&params);
+        if reader.diagnostics.len() == before {
+            reader.check_ranges(&params);
+        }
         draft.image = image_word(decl, &params);
         draft.params = params;
         draft.spoiled = diagnostics[before..].iter().any(Diagnostic::is_error);
@@ -99,7 +101,7 @@ impl<'a> Reader<'_, 'a> {
         for param in params {
             let count = self.elements(param);
             let part: Vec<Number> = numbers.by_ref().take(count).collect();
-            values.push(Param::Value(self.convert(param, &part, place.span)));
+            values.push(Param::Value(self.convert(param, &part, &|_| place.span)));
         }
         Some(values)
     }
@@ -122,7 +124,7 @@ impl<'a> Reader<'_, 'a> {
         }
         if let Some(extra) = next.next() {
             let total: usize = decl.params.iter().map(|param| self.elements(param)).sum();
-            let message = format!("expected {total} parameters of {}, found {}", decl.name, places.len());
+            let message = format!("expected {} of {}, found {}", count_word(total, "parameter"), decl.name, places.len());
             self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, extra.span, message).help(self.form()));
         }
         params
@@ -144,6 +146,10 @@ impl<'a> Reader<'_, 'a> {
         }
         let available = next.as_slice().len().min(count);
         let places: Vec<&Place> = next.take(available).collect();
+        let empty = places.iter().all(|place| place.value == Operand::Empty);
+        if empty && available == count && param.default.is_some() {
+            return None;
+        }
         if available < count {
             self.too_few(index);
             return None;
@@ -157,7 +163,8 @@ impl<'a> Reader<'_, 'a> {
         let found = self.statement.params.len();
         let end = self.statement.span.end;
         let at = Span { start: end.saturating_sub(1), ..self.statement.span };
-        let message = format!("expected {total} parameters of {}, found {found}: `{}` is missing", self.decl.name, param.name);
+        let expected = count_word(total, "parameter");
+        let message = format!("expected {expected} of {}, found {found}: `{}` is missing", self.decl.name, param.name);
         let help = format!("{}; an empty place keeps its comma, an empty list is all defaults", self.form());
         self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, at, message).help(help));
     }
@@ -171,8 +178,7 @@ impl<'a> Reader<'_, 'a> {
                 None => return None,
             }
         }
-        let span = places.first().map_or(self.statement.span, |place| place.span);
-        Some(Param::Value(self.convert(param, &numbers, span)))
+        Some(Param::Value(self.convert(param, &numbers, &|element| places[element].span)))
     }
 
     fn default_number(&mut self, param: &ParamDecl, element: usize, place: &Place) -> Option<Number> {
@@ -259,7 +265,7 @@ impl<'a> Reader<'_, 'a> {
         }
         let number = self.number(param, place)?;
         let scalar = Type { shape: pcl2_lang::types::Shape::Scalar, scalar: scalar_of(param)? };
-        let value = self.convert(&ParamDecl { ty: TypeExpr::Scalar(scalar.scalar), ..param.clone() }, &[number], place.span);
+        let value = self.convert(&ParamDecl { ty: TypeExpr::Scalar(scalar.scalar), ..param.clone() }, &[number], &|_| place.span);
         kernel::resolve(&param.ty, self.sizes).map(|ty| Param::Value(spread(value, ty)))
     }
 
@@ -281,7 +287,7 @@ impl<'a> Reader<'_, 'a> {
             return Some(Param::Value(Value::Text(self.input.sources.text(span).into())));
         }
         let numbers = self.file(span, place, self.elements(param), &format!("`{}`", param.name))?;
-        Some(Param::Value(self.convert(param, &numbers, place)))
+        Some(Param::Value(self.convert(param, &numbers, &|_| place)))
     }
 
     fn file(&mut self, span: Span, place: Span, count: usize, what: &str) -> Option<Vec<Number>> {
@@ -310,16 +316,18 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Numbers as the parameter's type; an int fits a real place, never the reverse.
-    fn convert(&mut self, param: &ParamDecl, numbers: &[Number], span: Span) -> Value {
+    fn convert(&mut self, param: &ParamDecl, numbers: &[Number], span_of: &dyn Fn(usize) -> Span) -> Value {
         let scalar = scalar_of(param).unwrap_or(Scalar::Real);
         let single = param.ty.is_scalar();
         match scalar {
             Scalar::Int => {
-                let ints: Vec<i32> = numbers.iter().map(|number| self.to_int(param, *number, span)).collect();
+                let numbers = numbers.iter().enumerate();
+                let ints: Vec<i32> = numbers.map(|(i, number)| self.to_int(param, *number, span_of(i))).collect();
                 if single { Value::Int(ints.first().copied().unwrap_or(0)) } else { Value::Ints(ints.into()) }
             }
             Scalar::Real => {
-                let reals: Vec<Real> = numbers.iter().map(|number| self.to_real(param, *number, span)).collect();
+                let numbers = numbers.iter().enumerate();
+                let reals: Vec<Real> = numbers.map(|(i, number)| self.to_real(param, *number, span_of(i))).collect();
                 if single { Value::Real(reals.first().copied().unwrap_or(Real::ZERO)) } else { Value::Reals(reals.into()) }
             }
         }

@@ -7,6 +7,7 @@ use pcl2_lang::codes;
 use pcl2_lang::diagnostic::Diagnostic;
 use pcl2_lang::program::SectionKind;
 use pcl2_lang::source::Span;
+use rustc_hash::FxHashMap;
 
 /// The sections of a source in order of execution, and its statements.
 pub(crate) struct Sectioned<'a> {
@@ -18,6 +19,7 @@ pub(crate) struct Sectioned<'a> {
 /// Reads the sections and applies `--plant`.
 pub(crate) fn read<'a>(input: &Input<'a>, diagnostics: &mut Vec<Diagnostic>) -> Sectioned<'a> {
     let mut found: Vec<(SectionKind, Span)> = Vec::new();
+    let mut firsts: FxHashMap<(u8, u32, u32), Span> = FxHashMap::default();
     let mut statements: Vec<(&Statement, u32)> = Vec::new();
     let mut homeless = false;
     for line in &input.tree.lines {
@@ -38,7 +40,7 @@ pub(crate) fn read<'a>(input: &Input<'a>, diagnostics: &mut Vec<Diagnostic>) -> 
             Line::Control(span, rate) => (control(*span, rate, diagnostics), *span),
             Line::End(_) => continue,
         };
-        check_repetition(&found, section, diagnostics);
+        check_repetition(&found, section, &mut firsts, diagnostics);
         found.push(section);
     }
     check_control(input, &found, diagnostics);
@@ -62,17 +64,28 @@ fn control(span: Span, rate: &[(u32, Span)], diagnostics: &mut Vec<Diagnostic>) 
     SectionKind::Control { every, offset }
 }
 
-fn check_repetition(found: &[(SectionKind, Span)], new: (SectionKind, Span), diagnostics: &mut Vec<Diagnostic>) {
-    if let Some((_, first)) = found.iter().find(|(kind, _)| *kind == new.0) {
+fn check_repetition(
+    found: &[(SectionKind, Span)],
+    new: (SectionKind, Span),
+    firsts: &mut FxHashMap<(u8, u32, u32), Span>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let key = match new.0 {
+        SectionKind::Initialize => (0, 0, 0),
+        SectionKind::Plant => (1, 0, 0),
+        SectionKind::Control { every, offset } => (2, every, offset),
+    };
+    let first = *firsts.entry(key).or_insert(new.1);
+    if first != new.1 {
         let message = match new.0 {
             SectionKind::Initialize => "expected one INITIALIZE, found a second",
             SectionKind::Plant => "expected one PLANT, found a second",
             SectionKind::Control { .. } => "expected one CONTROL section for each rate, found a second with the same rate",
         };
         let report = Diagnostic::new(codes::SECTION, new.1, message);
-        diagnostics.push(report.label(*first, "the first one").help("put the blocks into the first one"));
+        diagnostics.push(report.label(first, "the first one").help("put the blocks into the first one"));
     }
-    if new.0 == SectionKind::Initialize && !found.is_empty() {
+    if new.0 == SectionKind::Initialize && first == new.1 && !found.is_empty() {
         let message = "expected INITIALIZE before all other sections, found it after one";
         diagnostics.push(Diagnostic::new(codes::SECTION, new.1, message).label(found[0].1, "this section comes first"));
     }
@@ -80,9 +93,9 @@ fn check_repetition(found: &[(SectionKind, Span)], new: (SectionKind, Span), dia
 
 fn check_control(input: &Input<'_>, found: &[(SectionKind, Span)], diagnostics: &mut Vec<Diagnostic>) {
     let has_control = found.iter().any(|(kind, _)| matches!(kind, SectionKind::Control { .. }));
-    let complete = input.tree.end.is_some();
-    if !has_control && (complete || found.is_empty()) {
-        let at = input.tree.end.unwrap_or(Span { file: input.file, start: 0, end: 0 });
+    // A file without END may be cut short.
+    let homeless = found.is_empty() && !input.tree.lines.is_empty();
+    if let (Some(at), false) = (input.tree.end, has_control || homeless) {
         diagnostics.push(
             Diagnostic::new(codes::SECTION, at, "expected a CONTROL section, found none")
                 .help("blocks that run in every scan stand after a line CONTROL"),

@@ -1,12 +1,13 @@
 //! Pass 4: a signal for each output, a source for each port.
 
 use crate::Input;
-use crate::draft::{Draft, ENOUGH, Scope, Wire, tracked};
-use crate::number::{RETURN_PORT, output_names};
+use crate::draft::{Draft, Scope, Wire, tracked};
+use crate::bind::count_word;
+use crate::number::{RETURN_PORT, output_count, output_names};
 use pcl2_lang::ast::{Item as Place, Name, Number, Operand, Output};
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, PortDecl};
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use pcl2_lang::program::{BlockId, Cell, CellId, Role, SignalId, Source, Writer};
 use pcl2_lang::source::Span;
@@ -16,18 +17,29 @@ use pcl2_lang::types::{Real, Type, Value};
 /// Connects outputs and ports of a scope.
 pub(crate) fn connect<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
     own_ports(scope, input);
-    let mut order: Vec<usize> = (0..scope.drafts.len()).collect();
-    let initialize = |section: u32| u32::from(section != 0 || !has_initialize(input, scope));
-    order.sort_by_key(|i| (initialize(scope.drafts[*i].section), scope.drafts[*i].number));
-    for i in order {
+    for i in writing_order(input, scope) {
         outputs(input, scope, i, diagnostics);
     }
+    for wire in &mut scope.wires {
+        wire.writers.sort_by_key(|writer| writer.block);
+    }
     for i in 0..scope.drafts.len() {
-        if diagnostics.len() > ENOUGH {
+        if diagnostic::enough(diagnostics) {
             return;
         }
         Wirer { input, scope, diagnostics, block: i }.ports();
     }
+}
+
+/// The lowest-numbered writer of a signal comes first, those of INITIALIZE before all others.
+pub(crate) fn writing_order(input: &Input<'_>, scope: &Scope<'_>) -> Vec<usize> {
+    let has_initialize = has_initialize(input, scope);
+    let mut order: Vec<usize> = (0..scope.drafts.len()).collect();
+    order.sort_by_key(|i| {
+        let draft = &scope.drafts[*i];
+        (draft.section != 0 || !has_initialize, draft.number)
+    });
+    order
 }
 
 fn has_initialize(input: &Input<'_>, scope: &Scope<'_>) -> bool {
@@ -69,26 +81,32 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
         return;
     };
     let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
-    let names = output_names(decl, &sizes);
-    if statement.outputs.len() > names.len() {
-        let message = format!("expected at most {} of {}, found {}", count_word(names.len(), "output"), decl.name, statement.outputs.len());
-        diagnostics.push(Diagnostic::new(codes::OUTPUT_COUNT, statement.outputs[names.len()].span(), message));
+    let count = output_count(decl, &sizes);
+    if let Some(extra) = statement.outputs.get(count) {
+        let message = format!("expected at most {} of {}, found {}", count_word(count, "output"), decl.name, statement.outputs.len());
+        diagnostics.push(Diagnostic::new(codes::OUTPUT_COUNT, extra.span(), message));
         scope.drafts[index].spoiled = true;
+        let surplus = statement.outputs[count..].iter().filter_map(|output| match output {
+            Output::Name(name) => Some(name.symbol),
+            Output::Discard(_) => None,
+        });
+        scope.spoiled.extend(surplus);
     }
-    let tag = match (&statement.outputs[..], names.len()) {
-        ([Output::Name(name)], _) => Some(*name),
+    let names = if statement.outputs.len() < count { output_names(decl, &sizes) } else { Vec::new() };
+    let tag = match &statement.outputs[..] {
+        [Output::Name(name)] => Some(*name),
         _ => None,
     };
     if let Some(tag) = tag {
         scope.tags.entry(tag.symbol).or_insert(BlockId(index as u32));
     }
     let mut number = scope.drafts[index].number;
-    for (o, port) in names.iter().enumerate() {
+    for o in 0..count {
         let id = match (statement.outputs.get(o), tag) {
             (Some(Output::Name(name)), _) => named(input, scope, *name),
-            (None, Some(tag)) => push_wire(scope, format!("{}.{port}", input.symbols.text(tag.symbol)), tag.span),
+            (None, Some(tag)) => member(input, scope, tag, &names[o]),
             (Some(Output::Discard(span)), _) => push_wire(scope, String::new(), *span),
-            (None, None) if statement.outputs.is_empty() && port != RETURN_PORT => {
+            (None, None) if statement.outputs.is_empty() && names[o] != RETURN_PORT => {
                 let id = push_wire(scope, number.to_string(), statement.code.span);
                 scope.by_number.insert(number, (BlockId(index as u32), o as u32));
                 number = number.saturating_add(1);
@@ -135,15 +153,25 @@ fn named(input: &Input<'_>, scope: &mut Scope<'_>, name: Name) -> SignalId {
     id
 }
 
+/// The output of a tag that has no name of its own; blocks that share the tag share it.
+fn member(input: &Input<'_>, scope: &mut Scope<'_>, tag: Name, port: &str) -> SignalId {
+    let key = (tag.symbol, port.to_owned());
+    if let Some(id) = scope.members.get(&key) {
+        return *id;
+    }
+    let id = push_wire(scope, format!("{}.{port}", input.symbols.text(tag.symbol)), tag.span);
+    scope.members.insert(key, id);
+    id
+}
+
 fn push_wire(scope: &mut Scope<'_>, name: String, span: Span) -> SignalId {
     let id = SignalId(scope.wires.len() as u32);
     scope.wires.push(Wire { name, ty: None, spoiled: false, writers: Vec::new(), role: Role::Wire, span });
     id
 }
 
-fn count_word(count: usize, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
-}
+/// How many numbers a block without names may take when its code is not known.
+const UNKNOWN_PORTS: u32 = 16;
 
 struct Wirer<'w, 'a> {
     input: &'w Input<'a>,
@@ -158,7 +186,8 @@ impl<'a> Wirer<'_, 'a> {
         let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
             return;
         };
-        let operands = draft.operands.clone();
+        let operands = std::mem::take(&mut self.scope.drafts[self.block].operands);
+        let draft = &self.scope.drafts[self.block];
         let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
         let mut sources = Vec::with_capacity(operands.len());
         let mut next = 0;
@@ -172,7 +201,8 @@ impl<'a> Wirer<'_, 'a> {
                 next += 1;
             }
         }
-        self.scope.drafts[self.block].sources = sources;
+        let draft = &mut self.scope.drafts[self.block];
+        (draft.sources, draft.operands) = (sources, operands);
     }
 
     fn source(&mut self, decl: &Decl, port: &PortDecl, index: u32, operand: Option<&Place>) -> Option<Source> {
@@ -243,10 +273,12 @@ impl<'a> Wirer<'_, 'a> {
         let message = format!("expected a variable that a block writes, found `{text}`");
         let known = self.scope.wires.iter().map(|wire| wire.name.as_str()).filter(|name| !name.is_empty());
         let report = Diagnostic::new(codes::UNKNOWN_VARIABLE, name.span, message);
-        self.diagnostics.push(match suggest::help(text, known) {
+        let few = self.diagnostics.len() < diagnostic::MAX_ERRORS;
+        self.diagnostics.push(match few.then(|| suggest::help(text, known)).flatten() {
             Some(help) => report.help(help),
             None => report.help(format!("no block has `{text}` as an output")),
         });
+        self.scope.spoiled.insert(name.symbol);
     }
 
     fn element(&mut self, name: Name, indexes: &[(i32, Span)]) -> Option<Source> {
@@ -293,7 +325,12 @@ impl<'a> Wirer<'_, 'a> {
     fn number(&mut self, port: &PortDecl, number: i32, span: Span) -> Option<Source> {
         let found = u32::try_from(number).ok().and_then(|number| self.scope.by_number.get(&number).copied());
         let Some((block, output)) = found else {
-            let spoiled = u32::try_from(number).is_ok_and(|number| self.scope.spoiled_numbers.contains(&number));
+            // A block of which nothing is known may have several outputs.
+            let near = |number: u32| (number.saturating_sub(UNKNOWN_PORTS)..=number).rev();
+            let known = |number: &u32| self.scope.by_number.contains_key(number);
+            let spoiled = u32::try_from(number).is_ok_and(|number| {
+                near(number).take_while(|n| !known(n)).any(|n| self.scope.spoiled_numbers.contains(&n))
+            });
             if !spoiled {
                 let message = format!("expected a variable or the number of a block for input `{}`, found {number}", port.name);
                 let help = format!("no block has the number {number}; for a constant write `c = msc ( : {number}. )`, and use c here");
@@ -307,7 +344,7 @@ impl<'a> Wirer<'_, 'a> {
             let message = format!("expected the variable `{text}`, found its block's number {number}");
             let help = format!("did you mean the constant {number}? Then use `c = msc ( : {number}. )`; else write `{text}`");
             let report = Diagnostic::new(codes::NUMBER_OF_NAMED, span, message);
-            self.diagnostics.push(report.label(name.span, "the block with this number").help(help));
+            diagnostic::warn(self.diagnostics, report.label(name.span, "the block with this number").help(help));
         }
         draft.outputs.get(output as usize).map(|id| Source::Signal(*id))
     }

@@ -1,35 +1,35 @@
 //! Pass 5: every size and type; wires fit their ports.
 
 use crate::Input;
-use crate::draft::{Draft, ENOUGH, Scope};
+use crate::draft::{Draft, Scope};
+use crate::signals::writing_order;
 use pcl2_lang::ast::Operand;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, Expr, PortDecl, TypeExpr};
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use pcl2_lang::program::{SignalId, Source};
 use pcl2_lang::source::Span;
 use pcl2_lang::types::{MAX_ELEMENTS, Shape, Type};
 use pcl2_lang::verify::fits;
+use rustc_hash::FxHashMap;
+use std::collections::VecDeque;
 
 /// Finds all sizes, then checks all ports.
 pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
-    let mut waiting = writing_order(scope);
-    loop {
-        let before = waiting.len();
-        waiting.retain(|i| diagnostics.len() <= ENOUGH && !settle(input, scope, *i, diagnostics));
-        if waiting.is_empty() || waiting.len() == before {
-            break;
-        }
-        waiting.reverse();
+    let order = writing_order(input, scope);
+    for i in &order {
+        declare_outputs(scope, *i, diagnostics);
     }
-    for i in waiting {
-        if diagnostics.len() <= ENOUGH {
-            report_unknown_size(scope, i, diagnostics);
-        }
+    let mut search = Search { ready: order.into(), waiting: FxHashMap::default() };
+    search.run(scope, diagnostics);
+    while let (Some(i), false) = (search.first_waiting(scope), diagnostic::enough(diagnostics)) {
+        report_unknown_size(scope, i, diagnostics);
+        search.wake(scope, i);
+        search.run(scope, diagnostics);
     }
     for i in 0..scope.drafts.len() {
-        if diagnostics.len() > ENOUGH {
+        if diagnostic::enough(diagnostics) {
             return;
         }
         check_ports(input, scope, i, diagnostics);
@@ -37,55 +37,123 @@ pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &
     check_written(input, scope, diagnostics);
 }
 
-/// The lowest-numbered writer sets the type, INITIALIZE first: the order in which signals got their writers.
-fn writing_order(scope: &Scope<'_>) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..scope.drafts.len()).collect();
-    let first_output = |draft: &Draft<'_>| draft.outputs.first().copied();
-    order.sort_by_key(|i| {
-        let draft = &scope.drafts[*i];
-        let rank = first_output(draft).and_then(|id| {
-            scope.wire(id).writers.iter().position(|writer| writer.block.0 as usize == *i)
-        });
-        (rank.unwrap_or(0), draft.number)
-    });
-    order
+/// Gives signals the types that constants alone tell, the lowest-numbered writer first.
+fn declare_outputs(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+    let draft = &scope.drafts[index];
+    let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
+        return spoil(scope, index);
+    };
+    if draft.sizes.iter().all(Option::is_some) {
+        return settle_outputs(scope, index, decl, diagnostics);
+    }
+    let sizes = draft.sizes.clone();
+    let known: Vec<i32> = sizes.iter().map(|size| size.unwrap_or(0)).collect();
+    let mut next = 0;
+    for output in &decl.outputs {
+        let count = kernel::count(output.group.as_ref(), &known).unwrap_or(0);
+        if let (true, Some(ty)) = (is_known(&output.ty, &sizes), kernel::resolve(&output.ty, &known)) {
+            for o in next..next + count {
+                set_type(scope, index, o, ty, diagnostics);
+            }
+        }
+        next += count;
+    }
 }
 
-/// Tries to find the sizes of a block. `false`: a port's type is still missing.
-fn settle<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnostics: &mut Vec<Diagnostic>) -> bool {
+fn is_known(ty: &TypeExpr, sizes: &[Option<i32>]) -> bool {
+    fn known(expr: &Expr, sizes: &[Option<i32>]) -> bool {
+        match expr {
+            Expr::Int(_) | Expr::Real(_) | Expr::Param(_) => true,
+            Expr::Size(i) => sizes.get(*i).is_some_and(Option::is_some),
+            Expr::Negate(a) => known(a, sizes),
+            Expr::Add(a, b) | Expr::Subtract(a, b) | Expr::Multiply(a, b) | Expr::Divide(a, b) => {
+                known(a, sizes) && known(b, sizes)
+            }
+        }
+    }
+    match ty {
+        TypeExpr::Vector(_, n) => known(n, sizes),
+        TypeExpr::Matrix(_, r, c) => known(r, sizes) && known(c, sizes),
+        TypeExpr::Scalar(_) | TypeExpr::Text | TypeExpr::Time => true,
+    }
+}
+
+/// Blocks whose sizes come from ports wait until the signal at the port has its type.
+struct Search {
+    ready: VecDeque<usize>,
+    waiting: FxHashMap<SignalId, Vec<usize>>,
+}
+
+impl Search {
+    fn run(&mut self, scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+        while let Some(i) = self.ready.pop_front() {
+            match settle(scope, i, diagnostics) {
+                Some(signal) => self.waiting.entry(signal).or_default().push(i),
+                None => self.wake(scope, i),
+            }
+        }
+    }
+
+    /// The outputs of a block have their types: who waits for them goes on.
+    fn wake(&mut self, scope: &Scope<'_>, index: usize) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        for output in &scope.drafts[index].outputs {
+            self.ready.extend(self.waiting.remove(output).into_iter().flatten());
+        }
+    }
+
+    /// The first of the blocks that wait for each other.
+    fn first_waiting(&self, scope: &Scope<'_>) -> Option<usize> {
+        self.waiting.values().flatten().copied().filter(|i| !scope.drafts[*i].spoiled).min()
+    }
+}
+
+/// Tries to find the sizes of a block. `Some`: the signal whose type is still missing.
+fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) -> Option<SignalId> {
     let draft = &scope.drafts[index];
     let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
         spoil(scope, index);
-        return true;
+        return None;
     };
+    if draft.sizes.iter().all(Option::is_some) {
+        return None;
+    }
     match infer(scope, decl, index) {
-        Inferred::All(sizes) => scope.drafts[index].sizes = sizes,
-        Inferred::Waiting => return false,
+        Inferred::All(sizes) => {
+            scope.drafts[index].sizes = sizes;
+            settle_outputs(scope, index, decl, diagnostics);
+            None
+        }
+        Inferred::Waiting(signal) => Some(signal),
         Inferred::Spoiled => {
             spoil(scope, index);
-            return true;
+            None
         }
     }
+}
+
+/// With all sizes known: checks the sizes of all fields and gives the outputs their types.
+fn settle_outputs(scope: &mut Scope<'_>, index: usize, decl: &Decl, diagnostics: &mut Vec<Diagnostic>) {
     let sizes = scope.drafts[index].known_sizes().unwrap_or_default();
     if !check_fields(scope, index, decl, &sizes, diagnostics) {
-        spoil(scope, index);
-        return true;
+        return spoil(scope, index);
     }
     let mut next = 0;
     for output in &decl.outputs {
         for _ in 0..kernel::count(output.group.as_ref(), &sizes).unwrap_or(0) {
             if let Some(ty) = kernel::resolve(&output.ty, &sizes) {
-                set_type(input, scope, index, next, ty, diagnostics);
+                set_type(scope, index, next, ty, diagnostics);
             }
             next += 1;
         }
     }
-    true
 }
 
 enum Inferred {
     All(Vec<Option<i32>>),
-    Waiting,
+    Waiting(SignalId),
     Spoiled,
 }
 
@@ -93,11 +161,8 @@ enum Inferred {
 fn infer(scope: &Scope<'_>, decl: &Decl, index: usize) -> Inferred {
     let draft = &scope.drafts[index];
     let mut sizes = draft.sizes.clone();
-    if sizes.iter().all(Option::is_some) {
-        return Inferred::All(sizes);
-    }
     let known: Vec<i32> = sizes.iter().map(|size| size.unwrap_or(0)).collect();
-    let mut waiting = false;
+    let mut waiting = None;
     let mut next = 0;
     for port in decl.ports() {
         let count = kernel::count(port.group.as_ref(), &known).unwrap_or(0);
@@ -108,14 +173,14 @@ fn infer(scope: &Scope<'_>, decl: &Decl, index: usize) -> Inferred {
         };
         match source_shape(scope, source) {
             Found::Type(ty) => take_sizes(&port.ty, ty, &mut sizes),
-            Found::Later => waiting = true,
+            Found::Later(signal) => waiting = waiting.or(Some(signal)),
             Found::Spoiled => return Inferred::Spoiled,
         }
     }
     match (sizes.iter().all(Option::is_some), waiting) {
         (true, _) => Inferred::All(sizes),
-        (false, true) => Inferred::Waiting,
-        (false, false) => Inferred::Spoiled,
+        (false, Some(signal)) => Inferred::Waiting(signal),
+        (false, None) => Inferred::Spoiled,
     }
 }
 
@@ -148,7 +213,7 @@ fn take_sizes(declared: &TypeExpr, found: Type, sizes: &mut [Option<i32>]) {
 
 enum Found {
     Type(Type),
-    Later,
+    Later(SignalId),
     Spoiled,
 }
 
@@ -158,7 +223,7 @@ fn source_shape(scope: &Scope<'_>, source: &Source) -> Found {
         match wire.ty {
             _ if wire.spoiled => Found::Spoiled,
             Some(ty) => Found::Type(ty),
-            None => Found::Later,
+            None => Found::Later(*id),
         }
     };
     match source {
@@ -213,14 +278,7 @@ fn size_text(ty: &TypeExpr, sizes: &[i32]) -> String {
     }
 }
 
-fn set_type<'a>(
-    input: &Input<'a>,
-    scope: &mut Scope<'a>,
-    index: usize,
-    output: usize,
-    ty: Type,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+fn set_type(scope: &mut Scope<'_>, index: usize, output: usize, ty: Type, diagnostics: &mut Vec<Diagnostic>) {
     let Some(id) = scope.drafts[index].outputs.get(output).copied() else {
         return;
     };
@@ -229,7 +287,9 @@ fn set_type<'a>(
         None => wire.ty = Some(ty),
         Some(known) if known == ty || wire.spoiled => {}
         Some(known) => {
-            let first = wire.writers.first().map(|writer| writer.block.0 as usize).filter(|first| *first != index);
+            let others = wire.writers.iter().map(|writer| writer.block.0 as usize).filter(|other| *other != index);
+            let first = others.min_by_key(|other| scope.drafts[*other].number);
+            let wire = &mut scope.wires[id.0 as usize];
             let name = wire.name.clone();
             wire.spoiled = true;
             let draft = &scope.drafts[index];
@@ -241,7 +301,6 @@ fn set_type<'a>(
                 None => report,
             };
             diagnostics.push(report.help("a variable has one type and size in the whole file"));
-            let _ = input;
         }
     }
 }
@@ -253,7 +312,7 @@ fn writer_span(draft: &Draft<'_>, id: SignalId) -> Span {
 
 fn spoil(scope: &mut Scope<'_>, index: usize) {
     scope.drafts[index].spoiled = true;
-    for id in scope.drafts[index].outputs.clone() {
+    for id in &scope.drafts[index].outputs {
         scope.wires[id.0 as usize].spoiled = true;
     }
 }

@@ -4,7 +4,6 @@ use crate::program::{
     Block, BlockId, CellId, Delay, ImageId, Program, Role, Section, SectionKind, Signal, SignalId, Source, Unit, UnitId,
     Writer,
 };
-use crate::types::Type;
 
 /// Which blocks of a program are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -303,10 +302,4 @@ fn reachable_units(program: &Program, main: &Unit) -> (Vec<Unit>, Vec<UnitId>) {
         units.push(program.units[u].clone());
     }
     (units, ids)
-}
-
-/// The type of a signal that crosses, for reports.
-pub fn crossing(program: &Program, role: Role) -> Vec<(String, Type)> {
-    let signals = program.main().signals.iter().filter(|signal| signal.role == role);
-    signals.map(|signal| (signal.name.clone(), signal.ty)).collect()
 }

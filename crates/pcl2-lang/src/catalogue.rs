@@ -3,10 +3,10 @@
 use crate::codes;
 use crate::decl::Decl;
 use crate::declare;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{self, Diagnostic};
 use crate::source::Sources;
 use crate::symbol::Symbols;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 include!(concat!(env!("OUT_DIR"), "/packed.rs"));
 
@@ -25,6 +25,8 @@ pub fn pages() -> &'static [(&'static str, &'static str)] {
 pub struct Catalogue {
     decls: Vec<Decl>,
     by_name: FxHashMap<String, usize>,
+    /// Names of declarations with mistakes.
+    spoiled: FxHashSet<String>,
 }
 
 /// A user's declaration file.
@@ -51,7 +53,9 @@ impl Catalogue {
             let file = sources.add(format!("blocks/{path}"), text.as_bytes().to_vec());
             let (group, name) = path.rsplit_once('/').unwrap_or(("", path));
             let stem = name.strip_suffix(".fc").unwrap_or(name);
-            for decl in declare::read(sources, file, group, stem, symbols, diagnostics) {
+            let declared = declare::read(sources, file, group, stem, symbols, diagnostics);
+            catalogue.spoiled.extend(declared.spoiled);
+            for decl in declared.decls {
                 catalogue.add(decl, diagnostics);
             }
         }
@@ -73,7 +77,9 @@ impl Catalogue {
     ) {
         for user in files {
             let file = sources.add(user.name.clone(), user.bytes.clone());
-            for mut decl in declare::read(sources, file, "", &user.stem, symbols, diagnostics) {
+            let declared = declare::read(sources, file, "", &user.stem, symbols, diagnostics);
+            self.spoiled.extend(declared.spoiled);
+            for mut decl in declared.decls {
                 decl.user = true;
                 self.add(decl, diagnostics);
             }
@@ -87,7 +93,8 @@ impl Catalogue {
             } else {
                 (codes::BAD_DECLARATION, format!("expected one declaration of `{}`, found a second", decl.name))
             };
-            diagnostics.push(Diagnostic::new(code, decl.span, message).label(known.span, "the other one"));
+            let report = Diagnostic::new(code, decl.span, message).label(known.span, "the other one");
+            if report.is_error() { diagnostics.push(report) } else { diagnostic::warn(diagnostics, report) }
         }
         self.by_name.insert(decl.name.clone(), self.decls.len());
         self.decls.push(decl);
@@ -96,6 +103,11 @@ impl Catalogue {
     /// The function code of this name.
     pub fn find(&self, name: &str) -> Option<&Decl> {
         self.by_name.get(name).map(|index| &self.decls[*index])
+    }
+
+    /// Whether a declaration of this name has mistakes: it is not unknown, but nothing is known of it.
+    pub fn is_spoiled(&self, name: &str) -> bool {
+        self.spoiled.contains(name)
     }
 
     /// All declarations in order of reading; a hidden one is left out.

@@ -78,6 +78,21 @@ impl Diagnostic {
 /// The most errors that one run reports.
 pub const MAX_ERRORS: usize = 100;
 
+/// Warnings beyond this many messages are dropped: they would not be shown.
+const MAX_WARNINGS: usize = 1000;
+
+/// Reports a warning, unless there is more to say already than anybody reads.
+pub fn warn(diagnostics: &mut Vec<Diagnostic>, warning: Diagnostic) {
+    if diagnostics.len() < MAX_WARNINGS {
+        diagnostics.push(warning);
+    }
+}
+
+/// Whether there are so many errors that looking for more is of no use. Warnings never get there.
+pub fn enough(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics.len() > 2 * MAX_WARNINGS
+}
+
 /// Sorts by file, line and column, drops repetitions, and cuts the list after [`MAX_ERRORS`] errors.
 /// Returns how many errors were cut.
 pub fn finish(diagnostics: &mut Vec<Diagnostic>, strict: bool) -> usize {

@@ -375,11 +375,14 @@ pub fn resolve(ty: &TypeExpr, sizes: &[i32]) -> Option<Type> {
     (elements <= MAX_ELEMENTS).then_some(Type { scalar, shape })
 }
 
-/// How many ports or outputs a place stands for: 1, or the size of its group.
+/// The most ports in one group.
+pub const MAX_PORTS: usize = 4096;
+
+/// How many ports or outputs a place stands for: 1, or the size of its group. `None` when the group is too large.
 pub fn count(group: Option<&crate::decl::Group>, sizes: &[i32]) -> Option<usize> {
     match group {
         None => Some(1),
-        Some(group) => size(&group.count, sizes).and_then(|n| usize::try_from(n).ok()).filter(|n| *n as u64 <= MAX_ELEMENTS),
+        Some(group) => size(&group.count, sizes).and_then(|n| usize::try_from(n).ok()).filter(|n| *n <= MAX_PORTS),
     }
 }
 

@@ -4,7 +4,7 @@
 use crate::ast::{Line, Name, Number, Operand, Output, Statement};
 use crate::codes;
 use crate::declare::raw::Expr;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{self, Diagnostic};
 use crate::lexer::{DECLARATION_WORDS, Key, Lexeme, Lexer, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of};
 use crate::source::{FileId, NOT_TEXT, SourceFile, Sources, Span};
 use crate::symbol::{Symbol, Symbols};
@@ -19,6 +19,9 @@ lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, unreachable_pub, unused)]
     fc
 );
+
+/// The deepest nesting of an expression.
+const MAX_DEPTH: u32 = 100;
 
 /// The longest name.
 pub const MAX_NAME: usize = 63;
@@ -42,44 +45,55 @@ pub struct Context<'a> {
     file: FileId,
     symbols: &'a mut Symbols,
     diagnostics: &'a mut Vec<Diagnostic>,
+    too_deep: bool,
 }
 
 /// Parses a `.cfg` file.
 pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics: &mut Vec<Diagnostic>) -> Tree {
     let source = sources.file(file);
-    let mut context = Context { text: &source.text, file, symbols, diagnostics };
+    let mut context = Context::new(source, file, symbols, diagnostics);
     let mut lines = Lines::new(source, file, &SECTION_WORDS);
     let parser = cfg::CfgLineParser::new();
     let mut tree = Tree::default();
     while let Some(broken) = lines.next_line(context.diagnostics) {
+        if diagnostic::enough(context.diagnostics) {
+            return tree;
+        }
+        if broken {
+            context.spoil(&lines.tokens, &mut tree);
+            continue;
+        }
         match parser.parse(&mut context, lines.tokens()) {
-            Ok(Line::End(_)) => {
-                tree.end = Some(context.span(lines.tokens[0].start, lines.tokens[0].end));
+            Ok(Line::End(span)) => {
+                tree.end = Some(span);
                 return tree;
             }
             Ok(line) => tree.lines.push(line),
             Err(error) => {
-                if !broken {
-                    context.report(error, &lines.tokens);
-                }
+                context.report(error, &lines.tokens);
                 context.spoil(&lines.tokens, &mut tree);
             }
         }
     }
     let length = source.text.len() as u32;
     let end = context.span(length, length);
-    if !source.text.is_empty() || tree.lines.is_empty() {
-        context.diagnostics.push(
-            Diagnostic::new(codes::MISSING_END, end, "expected END, found the end of the file")
-                .help("the file may be cut short; if it is whole, add a line END"),
-        );
-    }
+    context.diagnostics.push(
+        Diagnostic::new(codes::MISSING_END, end, "expected END, found the end of the file")
+            .help("the file may be cut short; if it is whole, add a line END"),
+    );
     tree
 }
 
 /// Parses one line of a `.fc` file that was already cut.
 pub(crate) fn parse_declaration_line(context: &mut Context<'_>, lines: &Lines<'_>) -> Option<crate::declare::raw::Raw> {
     match fc::FcLineParser::new().parse(context, lines.tokens()) {
+        Ok(_) if std::mem::take(&mut context.too_deep) => {
+            let last = lines.tokens.last().copied().unwrap_or(lines.tokens[0]);
+            let message = format!("expected an expression at most {MAX_DEPTH} deep, found a deeper one");
+            let span = context.span(lines.tokens[0].start, last.end);
+            context.diagnostics.push(Diagnostic::new(codes::BAD_DECLARATION, span, message));
+            None
+        }
         Ok(raw) => Some(raw),
         Err(error) => {
             context.report(error, &lines.tokens);
@@ -138,6 +152,7 @@ impl<'a> Lines<'a> {
     pub(crate) fn next_line(&mut self, diagnostics: &mut Vec<Diagnostic>) -> Option<bool> {
         self.tokens.clear();
         let mut open: Vec<Lexeme> = Vec::new();
+        let mut open_text = false;
         let mut bad = Bad::default();
         loop {
             let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) else {
@@ -150,13 +165,21 @@ impl<'a> Lines<'a> {
                 Token::Newline => continue,
                 Token::LeftParen => open.push(lexeme),
                 Token::RightParen => drop(open.pop()),
+                Token::Key(Key::End) if self.tokens.is_empty() => {
+                    self.tokens.push(lexeme);
+                    return Some(false);
+                }
+                Token::OpenText => {
+                    open_text = true;
+                    diagnostics.push(unclosed_text(self.span(lexeme)));
+                }
                 Token::Bad => {
                     let token = bad.meet(lexeme, self, diagnostics);
                     self.push_replacement(token, lexeme, &mut open);
                     continue;
                 }
                 Token::Dot if self.is_stray_dot(lexeme) => {
-                    diagnostics.push(stray_dot(self.span(lexeme)));
+                    diagnostic::warn(diagnostics, stray_dot(self.span(lexeme)));
                     continue;
                 }
                 _ => {}
@@ -166,11 +189,11 @@ impl<'a> Lines<'a> {
         if self.tokens.is_empty() {
             return None;
         }
-        if let Some(first) = open.first() {
+        // A string without its end has swallowed the parenthesis.
+        if let (Some(first), false) = (open.first(), open_text) {
             self.report_unclosed(*first, diagnostics);
-            self.close(open.len());
         }
-        Some(bad.unknown || !open.is_empty())
+        Some(bad.unknown || open_text || !open.is_empty())
     }
 
     /// The tokens as lalrpop wants them.
@@ -222,19 +245,11 @@ impl<'a> Lines<'a> {
                 .help("close this parenthesis"),
         );
     }
+}
 
-    /// Adds what is missing, so that the rest of the statement is still understood.
-    fn close(&mut self, count: usize) {
-        let Some(last) = self.tokens.last().copied() else {
-            return;
-        };
-        if count == 1 && !self.tokens.iter().any(|lexeme| lexeme.token == Token::Colon) {
-            self.tokens.push(Lexeme { token: Token::Colon, start: last.end, end: last.end });
-        }
-        if count == 1 {
-            self.tokens.push(Lexeme { token: Token::RightParen, start: last.end, end: last.end });
-        }
-    }
+fn unclosed_text(span: Span) -> Diagnostic {
+    Diagnostic::new(codes::UNCLOSED_STRING, span, "expected a closing `\"` on the same line, found the end of the line")
+        .help("close the string")
 }
 
 fn stray_dot(span: Span) -> Diagnostic {
@@ -306,7 +321,7 @@ impl<'a> Context<'a> {
         symbols: &'a mut Symbols,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Context<'a> {
-        Context { text: &source.text, file, symbols, diagnostics }
+        Context { text: &source.text, file, symbols, diagnostics, too_deep: false }
     }
 
     pub(crate) fn diagnostics(&mut self) -> &mut Vec<Diagnostic> {
@@ -342,7 +357,7 @@ impl<'a> Context<'a> {
     fn name(&mut self, start: u32, end: u32) -> Name {
         let span = self.span(start, end);
         let text = self.text(span);
-        if text.len() > MAX_NAME {
+        if text.len() > MAX_NAME && self.symbols.find(text).is_none() {
             let message = format!("expected a name of at most {MAX_NAME} characters, found {}", text.len());
             self.diagnostics.push(Diagnostic::new(codes::BAD_NAME, span, message));
         }
@@ -352,8 +367,7 @@ impl<'a> Context<'a> {
     fn discard(&mut self, start: u32, end: u32) -> Output {
         let span = self.span(start, end);
         if end - start > 1 {
-            let message = format!("expected a name that starts with a letter, found `{}`", self.text(span));
-            self.diagnostics.push(Diagnostic::new(codes::BAD_NAME, span, message));
+            self.diagnostics.push(underscore_name(span, self.text(span)));
         }
         Output::Discard(span)
     }
@@ -407,11 +421,22 @@ impl<'a> Context<'a> {
     }
 
     fn binary(&mut self, a: Expr, sign: char, b: Expr) -> Expr {
-        Expr::binary(a, sign, b)
+        let depth = a.depth().max(b.depth()) + 1;
+        self.bounded(Expr::Binary(Box::new(a), sign, Box::new(b), depth))
     }
 
     fn negate(&mut self, a: Expr) -> Expr {
-        Expr::Negate(Box::new(a))
+        let depth = a.depth() + 1;
+        self.bounded(Expr::Negate(Box::new(a), depth))
+    }
+
+    /// A deep expression is reported and cut, so that nothing ever walks down a long one.
+    fn bounded(&mut self, expr: Expr) -> Expr {
+        if expr.depth() <= MAX_DEPTH {
+            return expr;
+        }
+        self.too_deep = true;
+        Expr::Number(Number::Int(0))
     }
 
     fn report(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
@@ -431,13 +456,29 @@ impl<'a> Context<'a> {
             }
             ParseError::User { .. } => return,
         };
-        if self.text(span).starts_with('"') && !self.text(span)[1..].contains('"') {
-            let message = "expected a closing `\"` on the same line, found the end of the line";
-            self.diagnostics.push(Diagnostic::new(codes::UNCLOSED_STRING, span, message));
+        if let Some(report) = self.bad_name(span, tokens, &expected) {
+            self.diagnostics.push(report);
             return;
         }
         let message = format!("expected {}, found {found}", list(&expected));
         self.diagnostics.push(Diagnostic::new(codes::UNEXPECTED, span, message).help(form_help(tokens)));
+    }
+
+    /// A reserved word, or a name that starts with `_`, where a name is due.
+    fn bad_name(&self, span: Span, tokens: &[Lexeme], expected: &[String]) -> Option<Diagnostic> {
+        let lexeme = tokens.iter().find(|lexeme| lexeme.start == span.start)?;
+        if !expected.iter().any(|token| token == "\"NAME\"") {
+            return None;
+        }
+        let text = self.text(span);
+        match lexeme.token {
+            Token::Key(_) => {
+                let message = format!("expected a name, found the reserved word `{text}`");
+                Some(Diagnostic::new(codes::BAD_NAME, span, message).help("take another name"))
+            }
+            Token::Underscore if text.len() > 1 => Some(underscore_name(span, text)),
+            _ => None,
+        }
     }
 
     fn describe(&self, token: Token, start: u32, end: u32) -> String {
@@ -452,8 +493,15 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Keeps the number and the output names of a line that is no statement, so that others may refer to them.
+    /// Keeps what others may refer to of a line that is not understood: its section, or its number and output names.
     fn spoil(&mut self, tokens: &[Lexeme], tree: &mut Tree) {
+        let first = tokens.first().map(|lexeme| (lexeme.token, self.span(lexeme.start, lexeme.end)));
+        match first {
+            Some((Token::Key(Key::Initialize), span)) => tree.lines.push(Line::Initialize(span)),
+            Some((Token::Key(Key::Plant), span)) => tree.lines.push(Line::Plant(span)),
+            Some((Token::Key(Key::Control), span)) => tree.lines.push(Line::Control(span, Vec::new())),
+            _ => {}
+        }
         for lexeme in tokens {
             let text = self.text(self.span(lexeme.start, lexeme.end));
             match lexeme.token {
@@ -467,6 +515,11 @@ impl<'a> Context<'a> {
             }
         }
     }
+}
+
+fn underscore_name(span: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(codes::BAD_NAME, span, format!("expected a name that starts with a letter, found `{text}`"))
+        .help("`_` alone discards an output")
 }
 
 fn form_help(tokens: &[Lexeme]) -> &'static str {

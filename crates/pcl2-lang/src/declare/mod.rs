@@ -11,12 +11,19 @@ use crate::decl::{
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Sources, Span};
 use crate::symbol::Symbols;
+use crate::lexer::{DECLARATION_WORDS, Key, Token};
 use crate::syntax::{Context, Lines, parse_body_line, parse_declaration_line};
 use crate::types::{Real, Scalar, Value};
 use raw::Raw;
 
-/// The deepest nesting of an expression.
-const MAX_DEPTH: usize = 100;
+/// What one file declares.
+#[derive(Clone, Debug, Default)]
+pub struct Declared {
+    /// The declarations without mistakes.
+    pub decls: Vec<Decl>,
+    /// The names of those with mistakes: not unknown, but nothing is known of them.
+    pub spoiled: Vec<String>,
+}
 
 /// Reads the declarations of one file. `group` and `stem` say where it stands.
 pub fn read(
@@ -26,37 +33,83 @@ pub fn read(
     stem: &str,
     symbols: &mut Symbols,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Decl> {
+) -> Declared {
     let source = sources.file(file);
     let mut context = Context::new(source, file, symbols, diagnostics);
     let mut lines = Lines::declarations(source, file);
-    let mut decls: Vec<Decl> = Vec::new();
+    let mut declared = Declared::default();
+    let mut current: Option<Decl> = None;
+    let mut sound = context.diagnostics().len();
     while let Some(broken) = lines.next_line(context.diagnostics()) {
-        if broken {
-            continue;
-        }
-        let start = lines.tokens[0].start;
-        let Some(line) = parse_declaration_line(&mut context, &lines) else {
-            continue;
-        };
-        match (line, decls.last_mut()) {
-            (Raw::Head(outputs, call), _) => {
+        let (first, start) = (lines.tokens[0].token, lines.tokens[0].start);
+        let line = if broken { None } else { parse_declaration_line(&mut context, &lines) };
+        match (line, &mut current) {
+            (Some(Raw::Head(outputs, call)), _) => {
+                finish(&mut context, current.take(), &mut sound, &mut declared);
                 let mut decl = head(&mut context, &outputs, &call);
                 decl.doc = comment_above(&source.text, start as usize);
                 (decl.group, decl.stem) = (group.to_owned(), stem.to_owned());
-                decls.push(decl);
+                current = Some(decl);
             }
-            (Raw::Clause(found), Some(decl)) => clause(&mut context, &mut lines, decl, found),
-            (Raw::Clause(_), None) => {
-                let span = context.span(start, lines.position());
-                complain(&mut context, span, "expected a declaration before its clauses, found a clause");
+            (Some(Raw::Clause(found)), Some(decl)) => clause(&mut context, &mut lines, decl, found),
+            (Some(Raw::Clause(found)), None) => {
+                if declared.decls.is_empty() && declared.spoiled.is_empty() {
+                    let span = context.span(start, lines.position());
+                    complain(&mut context, span, "expected a declaration before its clauses, found a clause");
+                    declared.spoiled.push(String::new());
+                }
+                skip_program(&mut context, &mut lines, matches!(found, raw::Clause::Example(..) | raw::Clause::Body));
+            }
+            (None, _) if is_clause_word(first) => {
+                skip_program(&mut context, &mut lines, matches!(first, Token::Key(Key::Example | Key::Body)));
+            }
+            (None, _) => {
+                finish(&mut context, current.take(), &mut sound, &mut declared);
+                declared.spoiled.extend(head_name(&context, &lines));
+                sound = context.diagnostics().len();
             }
         }
     }
-    for decl in &decls {
-        check(&mut context, decl);
+    finish(&mut context, current, &mut sound, &mut declared);
+    declared
+}
+
+/// Ends a declaration: it is known if nothing was said about it since `sound`.
+fn finish(context: &mut Context<'_>, decl: Option<Decl>, sound: &mut usize, declared: &mut Declared) {
+    let Some(decl) = decl else {
+        return;
+    };
+    if context.diagnostics().len() == *sound {
+        check(context, &decl);
     }
-    decls
+    let before = std::mem::replace(sound, context.diagnostics().len());
+    if *sound == before {
+        declared.decls.push(decl);
+    } else {
+        declared.spoiled.push(decl.name);
+    }
+}
+
+fn is_clause_word(token: Token) -> bool {
+    let Token::Key(key) = token else {
+        return false;
+    };
+    DECLARATION_WORDS.iter().any(|(word, known)| *known == key && word.starts_with(|c: char| c.is_ascii_uppercase()))
+}
+
+/// The name before the parenthesis of a head that could not be read.
+fn head_name(context: &Context<'_>, lines: &Lines<'_>) -> Option<String> {
+    let paren = lines.tokens.iter().position(|lexeme| lexeme.token == Token::LeftParen)?;
+    let name = lines.tokens.get(paren.checked_sub(1)?)?;
+    (name.token == Token::Name).then(|| context.text(context.span(name.start, name.end)).to_owned())
+}
+
+/// Leaves out the program of an example or a body whose declaration is not understood.
+fn skip_program(context: &mut Context<'_>, lines: &mut Lines<'_>, has_program: bool) {
+    if has_program {
+        let span = context.span(lines.tokens[0].start, lines.position());
+        text_until_end(context, lines, span);
+    }
 }
 
 fn complain(context: &mut Context<'_>, span: Span, message: impl Into<String>) {
@@ -195,12 +248,12 @@ fn declare_item(context: &mut Context<'_>, decl: &Decl, item: &raw::Item) -> Ite
 
 fn declare_group(context: &mut Context<'_>, decl: &Decl, group: Option<&(raw::Expr, Option<raw::Range>)>) -> Option<Group> {
     let (count, bounds) = group?;
-    let count = declare_expr(context, decl, count, 0);
+    let count = declare_size(context, decl, count);
     Some(Group { count, bounds: declare_bounds(context, decl, bounds.as_ref()) })
 }
 
 fn declare_type(context: &mut Context<'_>, decl: &Decl, ty: &raw::Type) -> TypeExpr {
-    let mut expr = |e: &raw::Expr| declare_expr(context, decl, e, 0);
+    let mut expr = |e: &raw::Expr| declare_size(context, decl, e);
     match ty {
         raw::Type::Int => TypeExpr::Scalar(Scalar::Int),
         raw::Type::Real => TypeExpr::Scalar(Scalar::Real),
@@ -210,6 +263,25 @@ fn declare_type(context: &mut Context<'_>, decl: &Decl, ty: &raw::Type) -> TypeE
         raw::Type::Vec(n) => TypeExpr::Vector(Scalar::Real, expr(n)),
         raw::Type::Imat(r, c) => TypeExpr::Matrix(Scalar::Int, expr(r), expr(c)),
         raw::Type::Mat(r, c) => TypeExpr::Matrix(Scalar::Real, expr(r), expr(c)),
+    }
+}
+
+/// An expression over literals and sizes: what a type needs is known before any parameter.
+fn declare_size(context: &mut Context<'_>, decl: &Decl, expr: &raw::Expr) -> Expr {
+    let before = context.diagnostics().len();
+    let size = declare_expr(context, decl, expr);
+    if context.diagnostics().len() == before && !is_size(&size) {
+        complain(context, decl.span, "expected a size of integers, constants and sizes of ports, found a parameter or a real in it");
+    }
+    size
+}
+
+fn is_size(expr: &Expr) -> bool {
+    match expr {
+        Expr::Int(_) | Expr::Size(_) => true,
+        Expr::Real(_) | Expr::Param(_) => false,
+        Expr::Negate(a) => is_size(a),
+        Expr::Add(a, b) | Expr::Subtract(a, b) | Expr::Multiply(a, b) | Expr::Divide(a, b) => is_size(a) && is_size(b),
     }
 }
 
@@ -223,24 +295,20 @@ fn declare_tail(context: &mut Context<'_>, decl: &Decl, tail: &raw::Tail) -> Tai
 
 fn declare_bounds(context: &mut Context<'_>, decl: &Decl, range: Option<&raw::Range>) -> Option<Bounds> {
     let range = range?;
-    let lower = range.lower.as_ref().map(|bound| declare_expr(context, decl, &bound.expr, 0));
-    let upper = range.upper.as_ref().map(|expr| declare_expr(context, decl, expr, 0));
+    let lower = range.lower.as_ref().map(|bound| declare_expr(context, decl, &bound.expr));
+    let upper = range.upper.as_ref().map(|expr| declare_expr(context, decl, expr));
     Some(Bounds { lower, above: range.lower.as_ref().is_some_and(|bound| bound.above), upper })
 }
 
-fn declare_expr(context: &mut Context<'_>, decl: &Decl, expr: &raw::Expr, depth: usize) -> Expr {
-    if depth > MAX_DEPTH {
-        complain(context, decl.span, format!("expected an expression at most {MAX_DEPTH} deep, found a deeper one"));
-        return Expr::Int(0);
-    }
+fn declare_expr(context: &mut Context<'_>, decl: &Decl, expr: &raw::Expr) -> Expr {
     match expr {
         raw::Expr::Number(Number::Int(value)) => Expr::Int(*value),
         raw::Expr::Number(Number::Real(value)) => Expr::Real(*value),
         raw::Expr::Name(name) => declare_name(context, decl, *name),
-        raw::Expr::Negate(a) => Expr::Negate(Box::new(declare_expr(context, decl, a, depth + 1))),
-        raw::Expr::Binary(a, sign, b) => {
-            let a = Box::new(declare_expr(context, decl, a, depth + 1));
-            let b = Box::new(declare_expr(context, decl, b, depth + 1));
+        raw::Expr::Negate(a, _) => Expr::Negate(Box::new(declare_expr(context, decl, a))),
+        raw::Expr::Binary(a, sign, b, _) => {
+            let a = Box::new(declare_expr(context, decl, a));
+            let b = Box::new(declare_expr(context, decl, b));
             match sign {
                 '+' => Expr::Add(a, b),
                 '-' => Expr::Subtract(a, b),
@@ -271,9 +339,9 @@ fn default_value(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, t
         TypeExpr::Text | TypeExpr::Time => None,
     };
     match (value, scalar) {
-        (raw::Value::Number(Number::Int(value)), Some(Scalar::Int)) => Some(Value::Int(*value)),
-        (raw::Value::Number(Number::Int(value)), Some(Scalar::Real)) => Some(Value::Real(Real::from_int(*value))),
-        (raw::Value::Number(Number::Real(value)), Some(Scalar::Real)) => Some(Value::Real(*value)),
+        (raw::Value::Number(Number::Int(value), _), Some(Scalar::Int)) => Some(Value::Int(*value)),
+        (raw::Value::Number(Number::Int(value), _), Some(Scalar::Real)) => Some(Value::Real(Real::from_int(*value))),
+        (raw::Value::Number(Number::Real(value), _), Some(Scalar::Real)) => Some(Value::Real(*value)),
         (raw::Value::Text(span), None) => Some(Value::Text(context.text(*span).into())),
         (raw::Value::Name(name), Some(Scalar::Int)) => {
             let text = context.symbol_text(name.symbol).to_owned();
@@ -291,9 +359,10 @@ fn default_value(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, t
             complain(context, *span, "expected a number, found a text");
             None
         }
-        (raw::Value::Number(_), _) => {
-            let span = context.span(0, 0);
-            complain(context, span, "expected a value of the place's type, found a number");
+        (raw::Value::Number(_, span), found) => {
+            let expected = if found == Some(Scalar::Int) { "an integer" } else { "a text" };
+            let message = format!("expected {expected}, found `{}`", context.text(*span));
+            complain(context, *span, message);
             None
         }
     }
@@ -409,9 +478,9 @@ fn text_until_end(context: &mut Context<'_>, lines: &mut Lines<'_>, span: Span) 
     let from = lines.position();
     let rest = context.text(context.span(from, u32::MAX));
     let mut length = 0;
-    for line in rest.split_inclusive('\n') {
+    for line in rest.split_inclusive(['\n', '\r']) {
         length += line.len();
-        if line.trim() == "END" {
+        if line.split('!').next().unwrap_or("").trim() == "END" {
             lines.jump(from + length as u32);
             return rest[..length].trim_start_matches(['\r', '\n']).to_owned();
         }

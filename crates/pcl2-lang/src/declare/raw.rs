@@ -88,7 +88,7 @@ pub struct Param {
 #[derive(Clone, Debug)]
 pub enum Value {
     /// A number.
-    Number(Number),
+    Number(Number, Span),
     /// A name of an enumeration.
     Name(Name),
     /// A text, quotes excluded.
@@ -117,14 +117,18 @@ pub enum Expr {
     /// A size or a parameter.
     Name(Name),
     /// `-a`
-    Negate(Box<Expr>),
+    Negate(Box<Expr>, u32),
     /// `a sign b`
-    Binary(Box<Expr>, char, Box<Expr>),
+    Binary(Box<Expr>, char, Box<Expr>, u32),
 }
 
 impl Expr {
-    pub(crate) fn binary(a: Expr, sign: char, b: Expr) -> Expr {
-        Expr::Binary(Box::new(a), sign, Box::new(b))
+    /// How many operations nest; kept in the nodes, so that asking is cheap.
+    pub(crate) fn depth(&self) -> u32 {
+        match self {
+            Expr::Number(_) | Expr::Name(_) => 0,
+            Expr::Negate(_, depth) | Expr::Binary(.., depth) => *depth,
+        }
     }
 }
 
