@@ -284,7 +284,20 @@ impl Loader {
             }
         };
         self.timings.push(("verify", clock.elapsed()));
+        if let Some(verified) = &verified {
+            self.refusals(verified);
+        }
         (verified, lines)
+    }
+
+    /// What only kernels can judge: each is asked once about the parameters as written.
+    fn refusals(&mut self, verified: &Verified) {
+        let clock = Instant::now();
+        for refusal in pcl2_sim::engine::judge(verified) {
+            let span = verified.program().main().block(refusal.block).span;
+            self.diagnostics.push(Diagnostic::new(codes::REFUSED, span, refusal.to_string()));
+        }
+        self.timings.push(("judge", clock.elapsed()));
     }
 
     /// A user's own code needs its C beside it.

@@ -40,10 +40,10 @@ impl Footprint {
             text.push_str(&format!("\n  code:    {code} bytes, constants included"));
         }
         if let Some(stack) = self.stack {
-            text.push_str(&format!("\n  stack:   at most {stack} bytes in a step"));
+            text.push_str(&format!("\n  stack:   at most {stack} bytes in a step, no recursion"));
         }
         match self.math.as_deref() {
-            Some([]) => text.push_str("\n  libm:    not used"),
+            Some([]) => text.push_str("\n  library: nothing but memory functions: no heap, no libm"),
             Some(names) => text.push_str(&format!("\n  library: {}", names.join(", "))),
             None => {}
         }
@@ -87,7 +87,7 @@ impl Graph {
         graph
     }
 
-    /// The deepest stack below a function; `None` when a call cannot be followed.
+    /// The deepest stack below a function; `None` when a call cannot be followed or leads back.
     fn deepest(&self, root: &str) -> Option<u64> {
         self.depth(root, &mut BTreeMap::new(), 0)
     }

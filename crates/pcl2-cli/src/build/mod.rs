@@ -209,6 +209,6 @@ fn summary(whole: &Verified, cut: &Verified, emitted: &Emitted, part: Part, foot
     if let Some(footprint) = footprint {
         text.push_str(&footprint.lines());
     }
-    text.push_str("\n  no heap, no recursion\n");
+    text.push('\n');
     text
 }
