@@ -34,6 +34,7 @@ pub(crate) fn bind<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
         let before = diagnostics.len();
         Binder { input, owner, diagnostics, decl, draft, constants: Vec::new() }.inputs();
         draft.spoiled = diagnostics[before..].iter().any(Diagnostic::is_error);
+        draft.sized = !draft.spoiled;
     }
 }
 

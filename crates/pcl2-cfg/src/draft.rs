@@ -24,6 +24,8 @@ pub(crate) struct Draft<'a> {
     pub(crate) number: u32,
     /// Something is wrong with it; what depends on it is not checked.
     pub(crate) spoiled: bool,
+    /// Its constants and sizes are sound: its parameters can be read, whatever is wired to its ports.
+    pub(crate) sized: bool,
     /// The values of the declaration's sizes; `None` until ports tell.
     pub(crate) sizes: Vec<Option<i32>>,
     /// The operand of each port (groups expanded); `None`: the default.
@@ -86,6 +88,7 @@ impl<'a> Scope<'a> {
             decl: None,
             number: 0,
             spoiled: false,
+            sized: false,
             sizes: Vec::new(),
             operands: Vec::new(),
             sources: Vec::new(),

@@ -8,7 +8,7 @@ use crate::signals::spread;
 use pcl2_lang::ast::{Item as Place, Number, Operand, Statement};
 use pcl2_lang::bounds;
 use pcl2_lang::codes;
-use pcl2_lang::decl::{Decl, ParamDecl, TypeExpr};
+use pcl2_lang::decl::{Decl, Expr, ParamDecl, TypeExpr};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use pcl2_lang::program::{ImageWord, Param};
@@ -20,7 +20,7 @@ use pcl2_lang::types::{Real, Scalar, Type, Value, Width};
 pub(crate) fn read<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
     let owner = scope.owner.clone();
     for draft in &mut scope.drafts {
-        let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
+        let Some(decl) = draft.decl.filter(|_| draft.sized) else {
             continue;
         };
         let Some(sizes) = draft.known_sizes() else {
@@ -38,7 +38,7 @@ pub(crate) fn read<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
         }
         draft.image = image_word(decl, &params);
         draft.params = params;
-        draft.spoiled = diagnostics[before..].iter().any(Diagnostic::is_error);
+        draft.spoiled |= diagnostics[before..].iter().any(Diagnostic::is_error);
     }
 }
 
@@ -393,7 +393,15 @@ impl<'a> Reader<'_, 'a> {
             param.name, self.decl.name, violation.expected, violation.found
         );
         let span = self.place_of(violation.param, violation.element);
-        self.diagnostics.push(Diagnostic::new(codes::OUT_OF_RANGE, span, message));
+        let mut report = Diagnostic::new(codes::OUT_OF_RANGE, span, message);
+        let bounds = param.tail.bounds.as_ref();
+        let ends = bounds.map(|bounds| [bounds.lower.as_ref(), bounds.upper.as_ref()]);
+        for end in ends.into_iter().flatten().flatten() {
+            if let Expr::Param(other) = end {
+                report = report.label(self.place_of(*other, 0), format!("`{}` stands here", self.decl.params[*other].name));
+            }
+        }
+        self.diagnostics.push(report);
     }
 
     /// Where the value of a parameter stands.

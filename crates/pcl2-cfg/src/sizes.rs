@@ -138,6 +138,7 @@ fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>
 fn settle_outputs(scope: &mut Scope<'_>, index: usize, decl: &Decl, diagnostics: &mut Vec<Diagnostic>) {
     let sizes = scope.drafts[index].known_sizes().unwrap_or_default();
     if !check_fields(scope, index, decl, &sizes, diagnostics) {
+        scope.drafts[index].sized = false;
         return spoil(scope, index);
     }
     let mut next = 0;

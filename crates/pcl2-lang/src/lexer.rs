@@ -191,8 +191,12 @@ impl<'a> Lexer<'a> {
     /// Goes on at a byte of the text.
     pub fn jump(&mut self, byte: u32) {
         let text = self.inner.source();
+        let mut byte = (byte as usize).min(text.len());
+        while !text.is_char_boundary(byte) {
+            byte += 1;
+        }
         let mut inner = Token::lexer(text);
-        inner.bump((byte as usize).min(text.len()));
+        inner.bump(byte);
         self.inner = inner;
     }
 }

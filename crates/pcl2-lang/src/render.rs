@@ -1,7 +1,7 @@
 //! Diagnostics as text for people.
 
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::{FileId, NOT_TEXT, Sources};
+use crate::source::{FileId, Sources};
 use codespan_reporting::diagnostic as cr;
 use codespan_reporting::files::{Error, Files};
 use codespan_reporting::term;
@@ -21,7 +21,7 @@ impl<'a> Files<'a> for View<'a> {
     }
 
     fn source(&'a self, id: FileId) -> Result<&'a str, Error> {
-        Ok(&self.0.file(id).text)
+        Ok(self.0.file(id).shown())
     }
 
     fn line_index(&'a self, id: FileId, byte: usize) -> Result<usize, Error> {
@@ -54,7 +54,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String
         .with_notes(diagnostic.help.iter().map(|help| format!("help: {help}")).collect());
     let mut bytes = Vec::new();
     match write(&mut bytes, sources, &report, color) {
-        Ok(()) => String::from_utf8_lossy(&bytes).replace(NOT_TEXT, "?"),
+        Ok(()) => String::from_utf8_lossy(&bytes).into_owned(),
         Err(_) => short(diagnostic, sources),
     }
 }

@@ -1,5 +1,7 @@
 //! Source text, places in it, and how places are counted.
 
+use std::sync::OnceLock;
+
 /// An index into [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(pub u32);
@@ -35,6 +37,7 @@ pub struct SourceFile {
     /// The bytes as read, kept only where the text differs from them.
     pub raw: Option<Box<[u8]>>,
     line_starts: Vec<u32>,
+    shown: OnceLock<Option<String>>,
 }
 
 /// Stands for each byte that is not UTF-8. It is no legal character outside comments.
@@ -93,7 +96,14 @@ impl SourceFile {
             }
         };
         let line_starts = line_starts(text.as_bytes());
-        SourceFile { name, text, raw, line_starts }
+        SourceFile { name, text, raw, line_starts, shown: OnceLock::new() }
+    }
+
+    /// The text for people: what has no shape of its own stands as `?`.
+    pub fn shown(&self) -> &str {
+        let hidden = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\r' | '\n');
+        let shown = self.shown.get_or_init(|| self.text.contains(hidden).then(|| self.text.replace(hidden, "?")));
+        shown.as_deref().unwrap_or(&self.text)
     }
 
     /// The place of a byte.

@@ -55,6 +55,13 @@ pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics
     let mut lines = Lines::new(source, file, &SECTION_WORDS);
     let parser = cfg::CfgLineParser::new();
     let mut tree = Tree::default();
+    if let Some(found) = no_text(source) {
+        let message = format!("expected ASCII or UTF-8 text, found {found}");
+        context.diagnostics.push(
+            Diagnostic::new(codes::UNREADABLE, context.span(0, 0), message).help("save the file as UTF-8 or ASCII"),
+        );
+        return tree;
+    }
     while let Some(broken) = lines.next_line(context.diagnostics) {
         if diagnostic::enough(context.diagnostics) {
             return tree;
@@ -82,6 +89,17 @@ pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics
             .help("the file may be cut short; if it is whole, add a line END"),
     );
     tree
+}
+
+/// What a file that is no text at all looks like.
+fn no_text(source: &SourceFile) -> Option<&'static str> {
+    let bytes = source.raw.as_deref().unwrap_or(source.text.as_bytes());
+    let head = &bytes[..bytes.len().min(4)];
+    match head {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
+        _ if head.contains(&0) => Some("a NUL byte at its start"),
+        _ => None,
+    }
 }
 
 /// Parses one line of a `.fc` file that was already cut.
@@ -176,6 +194,9 @@ impl<'a> Lines<'a> {
                 Token::Bad => {
                     let token = bad.meet(lexeme, self, diagnostics);
                     self.push_replacement(token, lexeme, &mut open);
+                    if bad.skip > lexeme.end {
+                        self.jump(bad.skip);
+                    }
                     continue;
                 }
                 Token::Dot if self.is_stray_dot(lexeme) => {
@@ -261,6 +282,7 @@ fn stray_dot(span: Span) -> Diagnostic {
 #[derive(Default)]
 struct Bad {
     last_end: Option<u32>,
+    /// One past the second byte of a character of two bytes.
     skip: u32,
     unknown: bool,
 }
@@ -268,9 +290,6 @@ struct Bad {
 impl Bad {
     /// Reports the character and returns the ASCII token it stands for.
     fn meet(&mut self, lexeme: Lexeme, lines: &Lines<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Token> {
-        if lexeme.start < self.skip {
-            return None;
-        }
         let continues = self.last_end == Some(lexeme.start);
         self.last_end = Some(lexeme.end);
         let text = &lines.source.text[lexeme.start as usize..];
@@ -279,7 +298,8 @@ impl Bad {
         let token = twin.and_then(token_of);
         self.unknown |= token.is_none() && twin != Some(' ');
         if !continues || twin.is_some() {
-            diagnostics.push(bad_character(character, twin, lines.span(lexeme), lines.source));
+            let end = if character == NOT_TEXT && twin.is_some() { self.skip } else { lexeme.end };
+            diagnostics.push(bad_character(character, twin, lines.span(Lexeme { end, ..lexeme }), lines.source));
         }
         token
     }
@@ -300,10 +320,11 @@ fn bad_character(character: char, twin: Option<char>, span: Span, source: &Sourc
             None => "a control character".to_owned(),
         },
         c if c.is_control() => format!("the control character 0x{:02x}", c as u32),
+        c if c.is_whitespace() => format!("U+{:04X}", c as u32),
         c => format!("`{c}`"),
     };
     match twin {
-        Some(' ') => Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found a full-width blank ({found})"))
+        Some(' ') => Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found another one ({found})"))
             .help("type an ordinary blank; any text is free in comments, after `!`"),
         Some(twin) => {
             Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected ASCII `{twin}`, found its full-width form ({found})"))
