@@ -66,7 +66,9 @@ impl<'a> Binder<'_, 'a> {
         let (by_position, named) = places.split_at(positional);
         let named = if positional == 0 && places.len() == 1 && places[0].label.is_none() { &[] } else { named };
         self.constants_behind_groups(by_position);
-        self.walk(by_position, named);
+        if self.group_fits(by_position) {
+            self.walk(by_position, named);
+        }
     }
 
     /// A group's size may stand behind it: what follows the last group is counted from the end.
@@ -82,6 +84,31 @@ impl<'a> Binder<'_, 'a> {
             };
             self.draft.sizes[constant.size] = self.integer(&places[index]);
         }
+    }
+
+    /// Whether a lone group gets as many ports as the constant behind it says.
+    fn group_fits(&mut self, places: &[Place]) -> bool {
+        let mut groups = self.decl.ports().filter(|port| port.group.is_some());
+        let (Some(port), None) = (groups.next(), groups.next()) else {
+            return true;
+        };
+        let sizes: Vec<i32> = self.draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
+        let is_behind = |item: &&Item| !matches!(item, Item::Port(port) if port.group.is_some());
+        let first = self.decl.items.iter().take_while(is_behind).count();
+        let others = first + self.decl.items[first + 1..].iter().filter(|item| !is_optional(item)).count();
+        let constant_behind = self.decl.items[first + 1..].iter().any(|item| {
+            matches!(item, Item::Constant(constant) if self.draft.sizes[constant.size].is_some())
+        });
+        let (Some(count), true) = (kernel::count(port.group.as_ref(), &sizes), constant_behind) else {
+            return true;
+        };
+        let found = places.len().saturating_sub(others);
+        if found != count {
+            let message = format!("expected {} `{}` of {}, as the constant behind them says, found {found}", count_word(count, "input"), port.name, self.decl.name);
+            let at = places.get(first + count.min(found)).map_or(self.draft.statement.colon, |place| place.span);
+            self.push(Diagnostic::new(codes::INPUT_COUNT, at, message).help(self.form()));
+        }
+        found == count
     }
 
     fn walk(&mut self, places: &'a [Place], named: &'a [Place]) {

@@ -51,7 +51,7 @@ fn image_word(decl: &Decl, params: &[Param]) -> Option<ImageWord> {
     let address: Vec<i32> = address.collect();
     let texts: Vec<String> = address.iter().map(i32::to_string).collect();
     let name = format!("{}({})", decl.name, texts.join(","));
-    Some(ImageWord { name, direction: image.direction, scalar: image.scalar, address })
+    Some(ImageWord { name, direction: image.direction, scalar: image.scalar, address, fail: None })
 }
 
 struct Reader<'r, 'a> {
@@ -205,8 +205,11 @@ impl<'a> Reader<'_, 'a> {
                 if let Some(value) = param.tail.names.iter().position(|known| known == text) {
                     return Some(Number::Int(value as i32));
                 }
-                let expected = if param.tail.names.is_empty() { "a number".to_owned() } else { param.tail.names.join(", ") };
-                format!("expected {expected} for `{}` of {}, found `{text}`", param.name, self.decl.name)
+                if !param.tail.names.is_empty() {
+                    self.unknown_choice(param, text, place.span);
+                    return None;
+                }
+                format!("expected a number for `{}` of {}, found `{text}`", param.name, self.decl.name)
             }
             Operand::Element(..) | Operand::Member(..) | Operand::Text(_) => {
                 let text = self.input.sources.text(place.span);
@@ -216,6 +219,16 @@ impl<'a> Reader<'_, 'a> {
         let help = "a parameter is a number; what changes from scan to scan comes in by a port, before the `:`";
         self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, place.span, message).help(help));
         None
+    }
+
+    fn unknown_choice(&mut self, param: &ParamDecl, text: &str, span: Span) {
+        let names = &param.tail.names;
+        let message = format!("expected one of {} for `{}` of {}, found `{text}`", names.join(", "), param.name, self.decl.name);
+        let report = Diagnostic::new(codes::VALUE_KIND, span, message);
+        self.diagnostics.push(match suggest::help(text, names.iter().map(String::as_str)) {
+            Some(help) => report.help(help),
+            None => report,
+        });
     }
 
     /// In a composite's body: one of its own parameters or constants.

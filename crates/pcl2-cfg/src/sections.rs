@@ -27,8 +27,9 @@ pub(crate) fn read<'a>(input: &Input<'a>, diagnostics: &mut Vec<Diagnostic>) -> 
             Line::Block(statement) => {
                 if found.is_empty() && !homeless {
                     homeless = true;
+                    let start = statement.number.map_or(statement.code.span, |(_, span)| span);
                     diagnostics.push(
-                        Diagnostic::new(codes::SECTION, statement.span, "expected INITIALIZE, PLANT or CONTROL before the first block, found a block")
+                        Diagnostic::new(codes::SECTION, start, "expected INITIALIZE, PLANT or CONTROL before the first block, found a block")
                             .help("write CONTROL on a line above it"),
                     );
                 }
@@ -37,7 +38,17 @@ pub(crate) fn read<'a>(input: &Input<'a>, diagnostics: &mut Vec<Diagnostic>) -> 
             }
             Line::Initialize(span) => (SectionKind::Initialize, *span),
             Line::Plant(span) => (SectionKind::Plant, *span),
-            Line::Control(span, rate) => (control(*span, rate, diagnostics), *span),
+            Line::Control(span, rate) => match control(*span, rate, diagnostics) {
+                Some(kind) => (kind, *span),
+                None => {
+                    found.push((EVERY_SCAN, *span));
+                    continue;
+                }
+            },
+            Line::UnknownSection(span) => {
+                found.push((EVERY_SCAN, *span));
+                continue;
+            }
             Line::End(_) => continue,
         };
         check_repetition(&found, section, &mut firsts, diagnostics);
@@ -48,20 +59,23 @@ pub(crate) fn read<'a>(input: &Input<'a>, diagnostics: &mut Vec<Diagnostic>) -> 
     in_order(move_plant(input, sectioned, diagnostics))
 }
 
-fn control(span: Span, rate: &[(u32, Span)], diagnostics: &mut Vec<Diagnostic>) -> SectionKind {
+/// What a section is taken for whose rate is wrong.
+const EVERY_SCAN: SectionKind = SectionKind::Control { every: 1, offset: 0 };
+
+fn control(span: Span, rate: &[(u32, Span)], diagnostics: &mut Vec<Diagnostic>) -> Option<SectionKind> {
     let (every, every_span) = rate.first().copied().unwrap_or((1, span));
     let (offset, offset_span) = rate.get(1).copied().unwrap_or((0, span));
     if every == 0 {
         let message = "expected a rate of at least 1 scan, found 0";
         diagnostics.push(Diagnostic::new(codes::SECTION, every_span, message));
-        return SectionKind::Control { every: 1, offset: 0 };
+        return None;
     }
     if offset >= every {
         let message = format!("expected an offset from 0 to {}, found {offset}", every - 1);
         diagnostics.push(Diagnostic::new(codes::SECTION, offset_span, message));
-        return SectionKind::Control { every, offset: 0 };
+        return None;
     }
-    SectionKind::Control { every, offset }
+    Some(SectionKind::Control { every, offset })
 }
 
 fn check_repetition(

@@ -261,17 +261,20 @@ impl<'a> Wirer<'_, 'a> {
         if let Some(value) = port.tail.names.iter().position(|known| known == text) {
             return Some(Source::Constant(Value::Int(value as i32)));
         }
-        self.unknown_variable(name);
+        self.unknown_variable(name, &port.tail.names);
         None
     }
 
-    fn unknown_variable(&mut self, name: Name) {
+    /// `choices`: the names that the port's values have.
+    fn unknown_variable(&mut self, name: Name, choices: &[String]) {
         if self.scope.spoiled.contains(&name.symbol) {
             return;
         }
         let text = self.input.symbols.text(name.symbol);
-        let message = format!("expected a variable that a block writes, found `{text}`");
+        let or = if choices.is_empty() { String::new() } else { format!(", or one of {}", choices.join(", ")) };
+        let message = format!("expected a variable that a block writes{or}, found `{text}`");
         let known = self.scope.wires.iter().map(|wire| wire.name.as_str()).filter(|name| !name.is_empty());
+        let known = choices.iter().map(String::as_str).chain(known);
         let report = Diagnostic::new(codes::UNKNOWN_VARIABLE, name.span, message);
         let few = self.diagnostics.len() < diagnostic::MAX_ERRORS;
         self.diagnostics.push(match few.then(|| suggest::help(text, known)).flatten() {
@@ -283,7 +286,7 @@ impl<'a> Wirer<'_, 'a> {
 
     fn element(&mut self, name: Name, indexes: &[(i32, Span)]) -> Option<Source> {
         let Some(id) = self.scope.by_name.get(&name.symbol).copied() else {
-            self.unknown_variable(name);
+            self.unknown_variable(name, &[]);
             return None;
         };
         if let Some((_, span)) = indexes.get(2) {
@@ -303,7 +306,7 @@ impl<'a> Wirer<'_, 'a> {
                 let report = Diagnostic::new(codes::UNKNOWN_MEMBER, tag.span, message);
                 self.diagnostics.push(report.help("a block has a tag when one name stands for all its outputs"));
             } else {
-                self.unknown_variable(tag);
+                self.unknown_variable(tag, &[]);
             }
             return None;
         };
@@ -316,7 +319,11 @@ impl<'a> Wirer<'_, 'a> {
             return draft.outputs.get(index).map(|id| Source::Signal(*id));
         }
         let message = format!("expected an output of {}, found `{text}`", decl.name);
-        let help = suggest::help(text, names.iter().map(String::as_str));
+        let help = if decl.params.iter().any(|param| param.name == text) {
+            Some(format!("`{text}` is a parameter: tools and `--set` reach it, ports do not"))
+        } else {
+            suggest::help(text, names.iter().map(String::as_str))
+        };
         let help = help.unwrap_or_else(|| format!("its outputs are {}", names.join(", ")));
         self.diagnostics.push(Diagnostic::new(codes::UNKNOWN_MEMBER, member.span, message).help(help));
         None

@@ -6,7 +6,7 @@ use crate::outcome::Outcome;
 use crate::project::{self, Project};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
-use pcl2_lang::program::{Program, SectionKind, Source, Unit};
+use pcl2_lang::program::{BlockId, Program, SectionKind, Source, Unit};
 use pcl2_lang::types::Type;
 use std::fmt::Write;
 
@@ -101,9 +101,18 @@ fn delays(program: &Program, text: &mut String) {
     for delay in &program.delays {
         let unit = program.main();
         let (reader, signal) = (unit.block(delay.reader), unit.signal(delay.signal));
-        let why = if delay.avoidable { "avoidable" } else { "in a loop" };
+        let same_section = signal.writers.iter().all(|writer| section_of(program, writer.block) == section_of(program, delay.reader));
+        let why = match (delay.avoidable, same_section) {
+            (true, _) => "avoidable",
+            (false, true) => "in a loop",
+            (false, false) => "written in another section",
+        };
         let _ = writeln!(text, "  block {} reads {} ({why})", reader.number, signal.name);
     }
+}
+
+fn section_of(program: &Program, block: BlockId) -> Option<usize> {
+    program.sections.iter().position(|section| (section.first..section.end).contains(&block.0))
 }
 
 /// The signals that cross between PLANT and CONTROL.

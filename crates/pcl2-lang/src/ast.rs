@@ -67,7 +67,7 @@ pub struct Item {
     pub label: Option<Name>,
     /// What is in it.
     pub value: Operand,
-    /// The place; for an empty one, where the comma, colon or parenthesis after it stands.
+    /// The place of the value; for an empty one, where the comma, colon or parenthesis after it stands.
     pub span: Span,
 }
 
@@ -99,6 +99,8 @@ pub enum Line {
     Plant(Span),
     /// `CONTROL [n [offset]]`
     Control(Span, Vec<(u32, Span)>),
+    /// A section word whose line is not understood; what stands wrong there was reported.
+    UnknownSection(Span),
     /// `END`
     End(Span),
 }

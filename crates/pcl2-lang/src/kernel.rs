@@ -44,6 +44,8 @@ pub enum Arg {
     Work(usize),
     /// The image word: by value from the plant, by pointer to the plant.
     Image,
+    /// The fail-safe value of a real word to the plant; a bad one stands for "hold".
+    Fail,
     /// An array output; of an INLINE code with several outputs also a scalar one.
     Output(usize),
     /// `int64_t T`, nanoseconds.
@@ -131,8 +133,9 @@ fn step_args(decl: &Decl) -> Vec<Arg> {
     args.extend(arrays(&decl.memory).map(Arg::Memory));
     args.extend(arrays(&decl.tuned).map(Arg::Tuned));
     args.extend((0..decl.work.len()).map(Arg::Work));
-    if decl.image.is_some() {
+    if let Some(image) = decl.image {
         args.push(Arg::Image);
+        args.extend((image.direction == Direction::Out && image.scalar == Scalar::Real).then_some(Arg::Fail));
     }
     args.extend(output_args(decl));
     args
@@ -260,6 +263,7 @@ fn argument(decl: &Decl, entry: Entry, arg: Arg) -> String {
         Arg::Tuned(i) => field(&decl.tuned[i], entry == Entry::Step),
         Arg::Work(i) => field(&decl.work[i], false),
         Arg::Image => image_argument(decl),
+        Arg::Fail => "pcl2_real fail".to_owned(),
         Arg::Output(i) => pointer(c_element(&decl.outputs[i].ty), &decl.outputs[i].name, false),
         Arg::Period => "int64_t T".to_owned(),
         Arg::Left => "pcl2_real *left".to_owned(),

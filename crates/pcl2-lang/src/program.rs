@@ -5,7 +5,7 @@
 
 use crate::decl::{Decl, Direction};
 use crate::source::Span;
-use crate::types::{Scalar, Type, Value, Width};
+use crate::types::{Real, Scalar, Type, Value, Width};
 
 /// An index into [`Program::decls`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -231,6 +231,8 @@ pub struct ImageWord {
     pub scalar: Scalar,
     /// The address parameters.
     pub address: Vec<i32>,
+    /// To the plant: what stands in for a bad value; without it the last good one is held.
+    pub fail: Option<Real>,
 }
 
 impl Program {

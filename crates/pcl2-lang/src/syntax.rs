@@ -518,9 +518,7 @@ impl<'a> Context<'a> {
     fn spoil(&mut self, tokens: &[Lexeme], tree: &mut Tree) {
         let first = tokens.first().map(|lexeme| (lexeme.token, self.span(lexeme.start, lexeme.end)));
         match first {
-            Some((Token::Key(Key::Initialize), span)) => tree.lines.push(Line::Initialize(span)),
-            Some((Token::Key(Key::Plant), span)) => tree.lines.push(Line::Plant(span)),
-            Some((Token::Key(Key::Control), span)) => tree.lines.push(Line::Control(span, Vec::new())),
+            Some((Token::Key(_), span)) => tree.lines.push(Line::UnknownSection(span)),
             _ => {}
         }
         for lexeme in tokens {

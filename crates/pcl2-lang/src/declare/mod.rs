@@ -504,7 +504,7 @@ fn body(context: &mut Context<'_>, lines: &mut Lines<'_>) -> Vec<Statement> {
                 ended = true;
                 break;
             }
-            Some(Line::Initialize(span) | Line::Plant(span) | Line::Control(span, _)) => {
+            Some(Line::Initialize(span) | Line::Plant(span) | Line::Control(span, _) | Line::UnknownSection(span)) => {
                 complain(context, span, "expected a statement or END in a BODY, found a section word");
             }
             None => {}
