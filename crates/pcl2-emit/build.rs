@@ -1,4 +1,4 @@
-//! Packs the C block runtime into the crate: every file below `runtime-c/include` and `runtime-c/src`.
+//! Packs the C block runtime into the crate: every file below `runtime-c/include`, `src` and `ports`.
 
 use std::fmt::Write;
 use std::io;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 fn main() -> io::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../runtime-c");
     let mut files = Vec::new();
-    for folder in ["include", "src"] {
+    for folder in ["include", "src", "ports"] {
         collect(&root.join(folder), &mut files)?;
     }
     files.sort();
@@ -28,7 +28,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
         let path = entry?.path();
         if path.is_dir() {
             collect(&path, files)?;
-        } else if path.extension().is_some_and(|extension| extension == "c" || extension == "h") {
+        } else if path.extension().is_some_and(|extension| extension == "c" || extension == "h" || extension == "ld") {
             files.push(path);
         }
     }

@@ -221,6 +221,7 @@ fn argument(decl: &Decl, arg: Arg, i: usize) -> String {
     match arg {
         Arg::Size(_) => by_value("int32_t"),
         Arg::Period => by_value("int64_t"),
+        Arg::Fail => by_value("pcl2_real"),
         Arg::Port(port) => match decl.ports().nth(port) {
             Some(port) if port.ty.is_scalar() && port.group.is_none() => by_value(kernel::c_element(&port.ty)),
             _ => format!("f[{i}]"),

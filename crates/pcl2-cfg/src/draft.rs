@@ -180,6 +180,7 @@ pub(crate) fn seal<'a>(
         images: images.words,
         substeps: options.substeps,
         delays,
+        bindings: Vec::new(),
     }
 }
 

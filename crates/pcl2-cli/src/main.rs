@@ -7,6 +7,7 @@ mod check;
 mod config;
 mod console;
 mod explain;
+mod io;
 mod outcome;
 mod output;
 mod project;

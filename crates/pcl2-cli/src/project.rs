@@ -269,9 +269,10 @@ impl Loader {
         let clock = Instant::now();
         let program = pcl2_cfg::compile(&input, &mut self.diagnostics);
         self.timings.push(("check", clock.elapsed()));
-        let Some(program) = program else {
+        let Some(mut program) = program else {
             return (None, lines);
         };
+        crate::io::bind(&place.config, &mut program, &mut self.diagnostics);
         self.missing_kernels(&program.decls);
         pcl2_cfg::check_period(&program, purpose == Use::Run, &mut self.diagnostics);
         let clock = Instant::now();

@@ -103,6 +103,7 @@ impl<'c, 'a> Call<'c, 'a> {
             Arg::Tuned(i) => self.array_field(out, self.shape().tuned[i]),
             Arg::Work(i) => self.work(out, i),
             Arg::Image => self.image(out),
+            Arg::Fail => self.fail(out),
             Arg::Output(i) => self.output(out, i),
             Arg::Period => {
                 let _ = match self.caller {
@@ -190,6 +191,15 @@ impl<'c, 'a> Call<'c, 'a> {
             Direction::In => write!(out, "{root}in.{}", border.inputs[index].0),
             Direction::Out => write!(out, "&{root}out.{}", border.outputs[index].0),
         };
+    }
+
+    /// The fail-safe value of the block's word.
+    fn fail(&self, out: &mut String) {
+        let word = self.block().image.map(|id| &self.cx.program.images[id.0 as usize]);
+        match word.and_then(|word| word.fail) {
+            Some(value) => text::real(out, value, self.cx.program.width),
+            None => out.push_str("pcl2_bad()"),
+        }
     }
 
     /// An output that the kernel writes through a pointer.

@@ -15,6 +15,7 @@ mod facts;
 mod header;
 mod image;
 mod init;
+mod io;
 mod json;
 mod layout;
 mod map;
@@ -100,7 +101,8 @@ pub fn emit_each(
     let hash = map::layout_hash(&cx, &points);
     let name = cx.name.clone();
     take(format!("{name}.h"), header::header(&cx, hash));
-    let runtime = runtime::collect(&cx, &options.known, &options.user_files);
+    let points_of_plant = io::io(&cx);
+    let runtime = runtime::collect(&cx, &options.known, &options.user_files, points_of_plant.is_some());
     let (text, included) = source::source(&cx, &points, &|path| runtime.files.contains_key(path));
     take(format!("{name}.c"), text);
     take(format!("{name}_map.c"), map::map(&cx, &points, hash));
@@ -109,6 +111,9 @@ pub fn emit_each(
     let folders = runtime.folders();
     let mut c_files = vec![format!("{name}.c"), format!("{name}_map.c")];
     c_files.extend(runtime.sources().filter(|path| !included.iter().any(|known| known == path)).map(str::to_owned));
+    if let Some(table) = points_of_plant {
+        take(format!("{name}_io.c"), table);
+    }
     take("Makefile".to_owned(), example::makefile(&name, &folders, &c_files));
     let sizes =
         Sizes { instance: cx.layout.extent.padded(), blocks: program.main().blocks.len(), points: points.len() };

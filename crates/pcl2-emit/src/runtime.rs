@@ -46,10 +46,14 @@ pub(crate) fn folder(decl: &Decl) -> &str {
 }
 
 /// Collects what the program's blocks need. `family` lists all known declarations, `user` the user's own C files.
-pub(crate) fn collect(cx: &Context<'_>, known: &[&Decl], user: &[(String, String)]) -> Runtime {
+pub(crate) fn collect(cx: &Context<'_>, known: &[&Decl], user: &[(String, String)], io: bool) -> Runtime {
     let mut collector = Collector { known, user, runtime: Runtime::default(), queue: Vec::new() };
     for header in ["pcl2.h", "pcl2_map.h", "pcl2_tune.h"] {
         collector.include(header);
+    }
+    if io {
+        collector.include("pcl2_io.h");
+        collector.port("io.c");
     }
     collector.put("pcl2/pcl2_config.h".to_owned(), config(cx.program.width));
     for decl in layout::used_decls(cx.program, &cx.layout) {
@@ -165,6 +169,14 @@ impl Collector<'_> {
         if let Some(decl) = self.known.iter().find(|decl| decl.stem == stem && !decl.is_composite()) {
             let family = family(self.known, &[], decl);
             self.kernel(decl, &family);
+        }
+    }
+
+    /// A file that board ports share.
+    fn port(&mut self, name: &str) {
+        let path = format!("ports/{name}");
+        if let Some((_, text)) = FILES.iter().find(|(known, _)| *known == path) {
+            self.put(format!("pcl2/{path}"), (*text).to_owned());
         }
     }
 

@@ -47,6 +47,25 @@ pub struct Program {
     pub substeps: u32,
     /// Reads of the previous scan's value in the program's own unit, in order of the reader.
     pub delays: Vec<Delay>,
+    /// Named inputs and outputs and image words bound to physical points.
+    pub bindings: Vec<Binding>,
+}
+
+/// A physical point bound to a word of the program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Binding {
+    /// The signal or image word.
+    pub name: String,
+    /// The physical point.
+    pub point: String,
+    /// word = gain raw + bias.
+    pub gain: Real,
+    /// See `gain`.
+    pub bias: Real,
+    /// A bad sample is held instead of handed on.
+    pub hold: bool,
+    /// To the plant: what stands in for a bad value.
+    pub fail: Option<Real>,
 }
 
 /// A block reads a signal that is written later in the scan: it gets the previous scan's value.

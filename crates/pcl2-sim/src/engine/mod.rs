@@ -226,6 +226,7 @@ fn fill(bound: &Bound, width: Width, at: usize, fill: Fill<'_>) {
     match fill {
         Fill::Int(value) => bound.write4(at, value.to_ne_bytes()),
         Fill::Time(value) => bound.write8(at, value.to_ne_bytes()),
+        Fill::Real(value) => write(bound, Probe { at, kind: real_kind(width) }, Number::of_real(value, width)),
         Fill::Text(text) => {
             let bytes: Vec<u8> = text.bytes().chain([0]).collect();
             for (i, chunk) in bytes.chunks(8).enumerate() {

@@ -5,7 +5,7 @@ use crate::ffi::{Kernel, Op};
 use pcl2_lang::decl::{Decl, Field, TypeExpr};
 use pcl2_lang::kernel::{self, Member};
 use pcl2_lang::program::{Block, DeclId, Param, Program, Role, Signal, UnitId};
-use pcl2_lang::types::{Scalar, Type, Value, Width};
+use pcl2_lang::types::{Real, Scalar, Type, Value, Width};
 
 /// No place: an array without elements, or one that is not known yet.
 pub(crate) const NOWHERE: usize = usize::MAX;
@@ -58,6 +58,8 @@ pub(crate) enum Fill<'a> {
     Int(i32),
     /// One time.
     Time(i64),
+    /// One real.
+    Real(Real),
     /// Elements of this type.
     Value(Scalar, usize, &'a Value),
     /// Characters and a NUL.

@@ -6,7 +6,7 @@ use crate::ffi::{Op, Plan, Slot, Tape};
 use pcl2_lang::decl::{Decl, PortDecl};
 use pcl2_lang::kernel::{self, Arg, Entry};
 use pcl2_lang::program::{Block, BlockId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer};
-use pcl2_lang::types::{Scalar, Shape, Type};
+use pcl2_lang::types::{Real, Scalar, Shape, Type};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -317,6 +317,7 @@ impl<'a, 'b> Wiring<'a, 'b> {
                 }
                 Arg::Output(i) => self.output(block, decl, node, i),
                 Arg::Image => self.image(block),
+                Arg::Fail => self.fail(block)?,
                 Arg::Port(i) => match decl.ports().nth(i) {
                     Some(port) => self.port(unit, block, port, &mut port_first, context)?,
                     None => Slot { at: 0, bytes: 0 },
@@ -379,6 +380,16 @@ impl<'a, 'b> Wiring<'a, 'b> {
         };
         let word = &self.program.images[image.0 as usize];
         Slot { at: self.images[image.0 as usize], bytes: width_of(word.scalar, self.program.width) }
+    }
+
+    /// The fail-safe value of a block's word.
+    fn fail(&mut self, block: &Block) -> Result<Slot, Unsupported> {
+        const HOLD: Real = Real { wide: f64::NAN, narrow: f32::NAN };
+        let bytes = self.program.width.bytes();
+        let bound = block.image.and_then(|image| self.program.images[image.0 as usize].fail);
+        let at = self.store.take(bytes)?;
+        self.store.fills.push((at, Fill::Real(bound.unwrap_or(HOLD))));
+        Ok(Slot { at, bytes })
     }
 
     fn port(
