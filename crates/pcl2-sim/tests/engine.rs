@@ -1,4 +1,5 @@
 //! The embedded engine on whole programs.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use pcl2_cfg::{Input, Options, Tunable};
 use pcl2_lang::catalogue::{Catalogue, UserFile};

@@ -74,14 +74,17 @@ fn pending(path: &Path) -> io::Result<Output> {
     Ok(Output::Pending(file, path.to_path_buf()))
 }
 
-/// Writes a whole file.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut output = Output::open(path)?;
-    output.write_all(bytes).and_then(|()| output.flush()).map_err(|error| cannot_write(path, &error))?;
-    output.keep()
+/// Writes a whole text.
+pub(crate) fn write(path: &Path, output: &mut Output, bytes: &[u8]) -> Result<(), Failure> {
+    output.write_all(bytes).and_then(|()| output.flush()).map_err(|error| cannot_write(path, &error))
 }
 
 /// The message for an output that fails.
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    Failure::failed(format!("cannot write `{}`: {error}", path.display()))
+    let reason = match error.kind() {
+        io::ErrorKind::NotFound => "there is no such folder".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => error.to_string(),
+    };
+    Failure::failed(format!("cannot write `{}`: {reason}", path.display()))
 }

@@ -13,6 +13,7 @@ use crate::console;
 use crate::outcome::Outcome;
 use crate::project;
 use clap::{Args, ValueEnum};
+use files::Output;
 use job::Job;
 use pcl2_sim::engine::{Machine, Unsupported};
 use pcl2_sim::health::Health;
@@ -134,10 +135,14 @@ fn execute(
     engine: impl FnOnce(&mut Recorder) -> Result<Finished, Failure>,
 ) -> Result<(), Failure> {
     let to_stdout = args.trace.as_deref().is_some_and(files::is_stdout);
+    let mut params = args.params.as_deref().map(|path| Ok((path, Output::open(path)?))).transpose()?;
     let finished = engine(&mut recorder)?;
-    let history = recorder.finish()?;
-    if let Some(path) = &args.params {
-        files::write(path, job.params_text(&finished.params).as_bytes())?;
+    let (history, trace) = recorder.finish()?;
+    if let Some((path, output)) = &mut params {
+        files::write(path, output, job.params_text(&finished.params).as_bytes())?;
+    }
+    for output in trace.into_iter().chain(params.map(|(_, output)| output)) {
+        output.keep()?;
     }
     if !to_stdout {
         console::out(&summary::text(job, &history));

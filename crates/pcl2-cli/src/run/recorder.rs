@@ -94,18 +94,16 @@ impl Recorder {
         if closed { Ok(()) } else { Err(files::cannot_write(&self.path, error)) }
     }
 
-    /// Completes the trace.
-    pub(crate) fn finish(mut self) -> Result<History, Failure> {
+    /// Completes the trace; it takes its place when the output is kept.
+    pub(crate) fn finish(mut self) -> Result<(History, Option<Output>), Failure> {
         let Some(trace) = self.trace.take() else {
-            return Ok(self.history);
+            return Ok((self.history, None));
         };
-        match trace.finish() {
-            Err(error) => self.broken(&error)?,
-            Ok(buffer) => match buffer.into_inner() {
-                Ok(output) => output.keep()?,
-                Err(error) => self.broken(error.error())?,
-            },
-        }
-        Ok(self.history)
+        let output = match trace.finish().map(BufWriter::into_inner) {
+            Ok(Ok(output)) => Some(output),
+            Ok(Err(error)) => self.broken(error.error()).map(|()| None)?,
+            Err(error) => self.broken(&error).map(|()| None)?,
+        };
+        Ok((self.history, output))
     }
 }
