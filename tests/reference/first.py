@@ -43,7 +43,7 @@ def before_the_first_scan():
     program = """
 ! A loop that reads the lag before it is written: the first value read is x0.
 CONTROL
-1 e = sumII ( 1, w, y, 2 : 1., -1. )
+1 e = sumII ( 1, w, y, 2 : 1., -1. )    ! warning: P0301
 2 y = first ( e : 1., 4., 2.5 )
 3 w = msc ( : 1. )
 END

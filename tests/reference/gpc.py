@@ -204,7 +204,8 @@ END
         stimulus.append([k, y, w, sw])
         trace.append([k, c.scan(w, y, LAG, sw, 0.3, -10.0, 10.0, 0.1)])
     golden.write("gpc_bad_signal", program, (["ain(0,1,1)", "ain(0,1,2)", "ain(0,1,3)"], stimulus),
-                 (["u"], trace), "numpy's solver and another order of the sums")
+                 (["u"], trace), "numpy's solver and another order of the sums",
+                 single=(1e-3, "the law's gain of 20 on the noise of a float signal"))
 
 
 if __name__ == "__main__":

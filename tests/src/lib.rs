@@ -1,5 +1,10 @@
 //! The test harness: tests enter where the command line enters.
 
+pub mod cases;
+pub mod compilers;
+pub mod expect;
+pub mod table;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -46,4 +51,12 @@ fn profile_folder() -> PathBuf {
     let test = std::env::current_exe().unwrap_or_default();
     let folder = test.ancestors().find(|folder| folder.file_name().is_some_and(|name| name == "deps"));
     folder.and_then(Path::parent).map_or_else(|| root().join("target/debug"), Path::to_path_buf)
+}
+
+/// Fails with all complaints at once.
+///
+/// # Panics
+/// When there is one.
+pub fn none(complaints: &[String]) {
+    assert!(complaints.is_empty(), "{} complaints:\n\n{}\n", complaints.len(), complaints.join("\n\n"));
 }
