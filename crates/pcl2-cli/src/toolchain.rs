@@ -13,24 +13,28 @@ struct Target {
     flags: &'static [&'static str],
     /// Small code counts more than speed.
     small: bool,
+    /// The board that QEMU emulates, to run programs of this target.
+    board: Option<&'static str>,
 }
 
 const TARGETS: [Target; 5] = [
-    Target { name: "cortex-m0", prefix: "arm-none-eabi-", flags: &["-mcpu=cortex-m0", "-mthumb"], small: true },
-    Target { name: "cortex-m3", prefix: "arm-none-eabi-", flags: &["-mcpu=cortex-m3", "-mthumb"], small: true },
+    Target { name: "cortex-m0", prefix: "arm-none-eabi-", flags: &["-mcpu=cortex-m0", "-mthumb"], small: true, board: None },
+    Target { name: "cortex-m3", prefix: "arm-none-eabi-", flags: &["-mcpu=cortex-m3", "-mthumb"], small: true, board: Some("mps2-an385") },
     Target {
         name: "cortex-m4",
         prefix: "arm-none-eabi-",
         flags: &["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"],
         small: true,
+        board: Some("mps2-an386"),
     },
     Target {
         name: "cortex-m7",
         prefix: "arm-none-eabi-",
         flags: &["-mcpu=cortex-m7", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv5-d16"],
         small: true,
+        board: Some("mps2-an500"),
     },
-    Target { name: "host", prefix: "", flags: &[], small: false },
+    Target { name: "host", prefix: "", flags: &[], small: false, board: None },
 ];
 
 /// A C compiler with its flags.
@@ -40,8 +44,8 @@ pub(crate) struct Toolchain {
     archiver: String,
     sizer: String,
     flags: Vec<String>,
-    /// The target's name, if it is not the host.
-    pub(crate) target: Option<&'static str>,
+    /// The board that an emulator has for the target.
+    pub(crate) board: Option<Board>,
 }
 
 impl Toolchain {
@@ -50,7 +54,7 @@ impl Toolchain {
         let compiler = std::env::var("CC").ok().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| "cc".to_owned());
         let archiver = std::env::var("AR").ok().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| "ar".to_owned());
         let compiler = compiler.split_whitespace().map(str::to_owned).collect();
-        Toolchain { compiler, archiver, sizer: "size".to_owned(), flags: COMMON.map(str::to_owned).to_vec(), target: None }
+        Toolchain { compiler, archiver, sizer: "size".to_owned(), flags: COMMON.map(str::to_owned).to_vec(), board: None }
     }
 
     /// The cross compiler of a target; `Err` lists the known names.
@@ -73,7 +77,7 @@ impl Toolchain {
             archiver: format!("{}ar", target.prefix),
             sizer: format!("{}size", target.prefix),
             flags,
-            target: Some(target.name),
+            board: target.board.map(Board),
         })
     }
 
@@ -103,6 +107,35 @@ impl Toolchain {
     pub(crate) fn archive(&self, library: &Path, objects: &[PathBuf]) -> Command {
         let mut command = Command::new(&self.archiver);
         command.arg("rcs").arg(library).args(objects);
+        command
+    }
+}
+
+/// An emulated board. Its C library gets arguments and files from the emulator, by semihosting.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Board(&'static str);
+
+impl Board {
+    /// The board's port: start code and linker script, by file name. The MPS2 boards share one.
+    pub(crate) fn files(self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let files = pcl2_emit::runtime_files().iter();
+        files.filter_map(|(path, text)| path.strip_prefix("ports/mps2/").map(|name| (name, *text)))
+    }
+
+    /// What the linker needs beside the objects, with the port's files in this folder.
+    pub(crate) fn link(self, folder: &Path, command: &mut Command) {
+        command.arg("--specs=rdimon.specs").arg("-T").arg(folder.join("link.ld")).arg(folder.join("start.c"));
+    }
+
+    /// Runs a program with arguments.
+    pub(crate) fn run(self, program: &Path, arguments: &[&Path]) -> Command {
+        let mut semihosting = "enable=on,target=native,arg=program".to_owned();
+        for argument in arguments {
+            semihosting.push_str(&format!(",arg={}", argument.display()));
+        }
+        let mut command = Command::new("qemu-system-arm");
+        command.args(["-M", self.0, "-nographic", "-monitor", "none", "-serial", "none", "-semihosting-config"]);
+        command.arg(semihosting).arg("-kernel").arg(program);
         command
     }
 }

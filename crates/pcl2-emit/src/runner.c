@@ -1,4 +1,5 @@
-/* Runs @NAME@: reads a script of 64-bit words from a file, writes what is recorded as 64-bit words. */
+/* Runs @NAME@: reads a script of 64-bit words from a file, writes what is recorded as 64-bit words to standard output,
+ * or to the file that a second argument names (an emulated target has no standard output of bytes). */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,10 +16,11 @@ struct pcl2_run_script {
 };
 
 static @NAME@ pcl2_run_self;
+static FILE *pcl2_run_out;
 
 static void pcl2_run_put(uint64_t word)
 {
-    if (fwrite(&word, sizeof word, 1, stdout) != 1) {
+    if (fwrite(&word, sizeof word, 1, pcl2_run_out) != 1) {
         exit(1);
     }
 }
@@ -172,7 +174,8 @@ static uint64_t *pcl2_run_read(const char *path)
 
 int main(int argc, char **argv)
 {
-    if (argc != 2) {
+    pcl2_run_out = argc == 3 ? fopen(argv[2], "wb") : stdout;
+    if (argc < 2 || argc > 3 || pcl2_run_out == NULL) {
         return 1;
     }
     uint64_t *const words = pcl2_run_read(argv[1]);
@@ -188,5 +191,5 @@ int main(int argc, char **argv)
     pcl2_run_all(&script, sets);
     free(sets);
     free(words);
-    return fflush(stdout) == 0 ? 0 : 1;
+    return fclose(pcl2_run_out) == 0 ? 0 : 1;
 }

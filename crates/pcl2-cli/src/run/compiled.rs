@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::recorder::{Recorder, Recording};
 use super::{Failure, Finished};
 use crate::project::Project;
-use crate::toolchain::{self, Toolchain};
+use crate::toolchain::{self, Board, Toolchain};
 use pcl2_emit::runner::{self, Place, Script};
 use pcl2_lang::model::Point;
 use pcl2_lang::types::{Scalar, Width};
@@ -26,19 +26,15 @@ pub(crate) fn run(
     job: &Job<'_>,
     verified: &Verified,
     project: &Project,
+    toolchain: &Toolchain,
     recorder: &mut Recorder,
 ) -> Result<Finished, Failure> {
     let folder = tempfile::Builder::new().prefix("pcl2-").tempdir().map_err(|error| cannot("make a folder", &error))?;
-    let program = build(verified, project, &folder)?;
+    let program = build(verified, project, toolchain, &folder)?;
     let script = folder.path().join("script");
     write(&script, &script_of(job, recorder).bytes())?;
-    let mut command = Command::new(program);
-    command.arg(script).stdin(Stdio::null()).stdout(Stdio::piped());
-    let mut child = Running(command.spawn().map_err(|error| cannot("start the compiled program", &error))?);
-    let Some(stdout) = child.0.stdout.take() else {
-        return Err(Failure::failed("the compiled program has no output"));
-    };
-    let words = Words(BufReader::with_capacity(1 << 16, stdout));
+    let (mut child, output) = start(&program, &script, toolchain.board, &folder)?;
+    let words = Words(BufReader::with_capacity(1 << 16, output));
     let refusals = Refusals { shadow: Machine::new(verified).ok(), next: 0 };
     let mut reader = Reader { job, words, progress: Progress::new(job.scans), refusals };
     match reader.read(recorder) {
@@ -48,22 +44,51 @@ pub(crate) fn run(
     }
 }
 
+/// Starts the program; what it writes comes by a pipe, from an emulated board by a file when it is done.
+fn start(
+    program: &Path,
+    script: &Path,
+    board: Option<Board>,
+    folder: &TempDir,
+) -> Result<(Running, Box<dyn Read>), Failure> {
+    let out = folder.path().join("out");
+    let mut command = match board {
+        Some(board) => board.run(program, &[script, &out]),
+        None => Command::new(program),
+    };
+    if board.is_some() {
+        toolchain::run(command).map_err(Failure::failed)?;
+        let file = fs::File::open(&out).map_err(|error| cannot("read what the emulated program wrote", &error))?;
+        return Ok((Running(None), Box::new(file)));
+    }
+    command.arg(script).stdin(Stdio::null()).stdout(Stdio::piped());
+    let mut child = command.spawn().map_err(|error| cannot("start the compiled program", &error))?;
+    match child.stdout.take() {
+        Some(stdout) => Ok((Running(Some(child)), Box::new(stdout))),
+        None => Err(Failure::failed("the compiled program has no output")),
+    }
+}
+
 /// A process that does not outlive its reader.
-struct Running(Child);
+struct Running(Option<Child>);
 
 impl Running {
     fn reason(&mut self) -> String {
-        match self.0.wait() {
-            Ok(status) => format!("the compiled program ended early ({status})"),
-            Err(error) => format!("the compiled program ended early ({error})"),
+        let early = "the compiled program ended early";
+        match self.0.as_mut().map(Child::wait) {
+            Some(Ok(status)) => format!("{early} ({status})"),
+            Some(Err(error)) => format!("{early} ({error})"),
+            None => early.to_owned(),
         }
     }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        if let Some(child) = &mut self.0 {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
     }
 }
 
@@ -77,7 +102,12 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Emits, writes and compiles the program with its runner.
-fn build(verified: &Verified, project: &Project, folder: &TempDir) -> Result<PathBuf, Failure> {
+fn build(
+    verified: &Verified,
+    project: &Project,
+    toolchain: &Toolchain,
+    folder: &TempDir,
+) -> Result<PathBuf, Failure> {
     let options =
         pcl2_emit::Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
     let emitted = pcl2_emit::emit(verified, &project.sources, &options);
@@ -87,11 +117,17 @@ fn build(verified: &Verified, project: &Project, folder: &TempDir) -> Result<Pat
     write(&folder.path().join("pcl2_runner.c"), runner::runner(&emitted.name).as_bytes())?;
     let mut includes = vec![folder.path().to_path_buf()];
     includes.extend(emitted.folders.iter().map(|name| folder.path().join(name)));
-    let mut command = Toolchain::host().compile(&includes);
+    let mut command = toolchain.compile(&includes);
     let main = format!("{}.c", emitted.name);
     let sources = emitted.sources.iter().filter(|source| **source != main).map(String::as_str);
     command.args(sources.chain(["pcl2_runner.c"]).map(|source| folder.path().join(source)));
     let program = folder.path().join("pcl2_run");
+    if let Some(board) = toolchain.board {
+        for (name, text) in board.files() {
+            write(&folder.path().join(name), text.as_bytes())?;
+        }
+        board.link(folder.path(), &mut command);
+    }
     command.arg("-o").arg(&program).arg("-lm");
     toolchain::run(command).map_err(Failure::failed)?;
     Ok(program)

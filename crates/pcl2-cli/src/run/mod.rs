@@ -12,6 +12,7 @@ use crate::args::CommonArgs;
 use crate::console;
 use crate::outcome::Outcome;
 use crate::project;
+use crate::toolchain::Toolchain;
 use clap::{Args, ValueEnum};
 use files::Output;
 use job::Job;
@@ -48,6 +49,9 @@ pub(crate) struct RunArgs {
     /// What runs the program
     #[arg(long, value_enum)]
     pub(crate) engine: Option<Engine>,
+    /// Compile for this target and run on QEMU's board for it: cortex-m3, cortex-m4, cortex-m7
+    #[arg(long, value_name = "NAME", conflicts_with = "engine")]
+    pub(crate) target: Option<String>,
     /// Write the parameters as they are at the end
     #[arg(long, value_name = "FILE")]
     pub(crate) params: Option<PathBuf>,
@@ -97,11 +101,13 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
     };
     let names = Names::new(verified.program());
     let ended = Job::new(args, &names).and_then(|job| {
-        let engine = choose(args.engine, &verified)?;
+        let toolchain = toolchain(args)?;
+        let wish = if args.target.is_some() { Some(Engine::Cc) } else { args.engine };
+        let engine = choose(wish, &verified)?;
         let recorder = Recorder::new(&job, args.trace.as_deref())?;
         execute(args, &job, recorder, |recorder| match engine {
             Some(machine) => embedded::run(&job, machine, recorder),
-            None => compiled::run(&job, &verified, &project, recorder),
+            None => compiled::run(&job, &verified, &project, &toolchain, recorder),
         })
     });
     match ended {
@@ -110,6 +116,17 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
             console::error(&failure.message);
             failure.outcome
         }
+    }
+}
+
+/// The C compiler, and the board that an emulator has for the target.
+fn toolchain(args: &RunArgs) -> Result<Toolchain, Failure> {
+    let toolchain = Toolchain::of(args.target.as_deref()).map_err(Failure::usage)?;
+    match &args.target {
+        Some(target) if target != "host" && toolchain.board.is_none() => {
+            Err(Failure::usage(format!("there is no emulator for the target `{target}`")))
+        }
+        _ => Ok(toolchain),
     }
 }
 

@@ -1,4 +1,4 @@
-/* Start of a program on the mps2-an386 board under QEMU: vectors, then the C library's own start, which gets
+/* Start of a program on an MPS2 board under QEMU: vectors, then the C library's own start, which gets
  * arguments, files and exit from the emulator by semihosting. */
 #include <stdint.h>
 #include <string.h>
