@@ -44,7 +44,7 @@ fn stems<'c>(cx: &'c Context<'_>) -> Vec<&'c str> {
 }
 
 fn structs(out: &mut String, cx: &Context<'_>) {
-    for shape in cx.layout.shapes.iter().filter(|shape| shape.form == Form::Struct) {
+    for shape in cx.layout.shapes.iter().filter(|shape| shape.declared) {
         shape_struct(out, cx, shape);
     }
     for cold in &cx.layout.colds {

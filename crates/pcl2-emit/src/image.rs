@@ -22,7 +22,7 @@ pub(crate) fn image(out: &mut String, cx: &Context<'_>) -> bool {
         let _ = writeln!(body, "    .cold = {{\n{cold}    }},");
     }
     for (section, phase) in cx.program.sections.iter().zip(&cx.layout.phases) {
-        if let (SectionKind::Control { offset, .. }, Some(phase)) = (section.kind, phase) {
+        if let (SectionKind::Control { offset: offset @ 1.., .. }, Some(phase)) = (section.kind, phase) {
             let _ = writeln!(body, "    .{phase} = {offset},");
         }
     }

@@ -343,12 +343,29 @@ impl<'a, 'c> Builder<'a, 'c> {
         for i in 0..self.layout.shapes.len() {
             let name = &self.program.decl(self.layout.shapes[i].decl).name;
             if self.layout.shapes[i].form == Form::Struct {
-                self.layout.shapes[i].tag = self.tag(name);
+                let twin = self.twin(i);
+                self.layout.shapes[i].declared = twin.is_none();
+                self.layout.shapes[i].tag = match twin {
+                    Some(twin) => self.layout.shapes[twin].tag.clone(),
+                    None => self.tag(name),
+                };
             }
             if let Some(cold) = self.layout.shapes[i].cold {
                 self.layout.colds[cold].tag = self.tag(&format!("{name}_cold"));
             }
         }
+    }
+
+    /// An earlier shape of the same code with the same fields.
+    fn twin(&self, index: usize) -> Option<usize> {
+        let shape = &self.layout.shapes[index];
+        let same = |other: &Shape| {
+            other.decl == shape.decl
+                && other.form == Form::Struct
+                && other.fields == shape.fields
+                && other.params.iter().flatten().count() == shape.params.iter().flatten().count()
+        };
+        self.layout.shapes[..index].iter().position(same)
     }
 
     fn measure(&mut self) {

@@ -114,10 +114,10 @@ impl<'a> Namer<'a> {
         self.take(legal(text, "b"))
     }
 
-    /// As [`Namer::name`], for a text that does not live long.
+    /// As [`Namer::name`], for a name of ours: only numbered if it is taken.
     pub(crate) fn made(&mut self, text: &str) -> String {
         let name = legal(text, "b").into_owned();
-        self.take(Cow::Owned(name)).into_owned()
+        if self.used.insert(Cow::Owned(name.clone())) { name } else { self.numbered(&name).into_owned() }
     }
 
     fn take(&mut self, wanted: Cow<'a, str>) -> Cow<'a, str> {
@@ -128,6 +128,10 @@ impl<'a> Namer<'a> {
         if !wanted.ends_with('_') && self.used.insert(reserved.clone()) {
             return reserved;
         }
+        self.numbered(&wanted)
+    }
+
+    fn numbered(&mut self, wanted: &str) -> Cow<'a, str> {
         let mut number = 2;
         loop {
             let numbered: Cow<'a, str> = Cow::Owned(format!("{wanted}_{number}"));

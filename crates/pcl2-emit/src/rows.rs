@@ -89,6 +89,9 @@ fn is_point(ty: &TypeExpr, block: &Block) -> bool {
     kernel::resolve(ty, &block.sizes).is_some()
 }
 
+/// Init adapters of blocks that differ in fixed parameters only; more of them are called directly.
+const MAX_STARTS: usize = 4;
+
 /// What the adapters of a row depend on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
@@ -98,13 +101,11 @@ struct Key {
     fixed: String,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Variant {
-    /// The name of its `struct pcl2_code`.
-    name: String,
-    /// The fixed parameters with which its init adapter was made, as literals.
-    started: String,
-    /// The same without the init adapter, for blocks that start otherwise.
+    /// By the fixed parameters that init takes, as literals: the name of the `struct pcl2_code`.
+    starts: Vec<(String, String)>,
+    /// The same without the init adapter, once there are too many of them.
     bare: Option<String>,
 }
 
@@ -154,28 +155,31 @@ impl Builder<'_, '_> {
             fixed: fixed(&|i| facts.tune[i] || checked(cx, block, facts, i)),
         };
         let started = fixed(&|i| facts.init[i]);
-        let name = match self.variants.get(&key) {
-            None => {
-                let name = self.variant(statics, id, &key, inits);
-                self.variants.insert(key, Variant { name: name.clone(), started, bare: None });
-                name
-            }
-            Some(known) if !inits || known.started == started => known.name.clone(),
-            Some(known) => {
-                let bare = known.bare.clone();
-                self.rows.inits.push((id, period));
-                bare.unwrap_or_else(|| self.bare(statics, id, key))
-            }
-        };
-        self.row(&name, id, first);
+        let name = self.code_of(statics, id, key, started, inits);
+        if name.1 {
+            self.rows.inits.push((id, period));
+        }
+        self.row(&name.0, id, first);
     }
 
-    fn bare(&mut self, statics: &mut Statics, id: BlockId, key: Key) -> String {
-        let name = self.variant(statics, id, &key, false);
-        if let Some(variant) = self.variants.get_mut(&key) {
-            variant.bare = Some(name.clone());
+    /// The `struct pcl2_code` of a block, and whether its init is called directly.
+    fn code_of(&mut self, statics: &mut Statics, id: BlockId, key: Key, started: String, inits: bool) -> (String, bool) {
+        let known = self.variants.entry(key.clone()).or_default();
+        if let Some((_, name)) = known.starts.iter().find(|(known, _)| *known == started) {
+            return (name.clone(), false);
         }
-        name
+        let bare = known.starts.len() >= MAX_STARTS;
+        if let Some(name) = known.bare.clone().filter(|_| bare) {
+            return (name, true);
+        }
+        let name = self.variant(statics, id, &key, inits && !bare);
+        let known = self.variants.entry(key).or_default();
+        if bare {
+            known.bare = Some(name.clone());
+        } else {
+            known.starts.push((started, name.clone()));
+        }
+        (name, bare)
     }
 
     fn row(&mut self, code: &str, id: BlockId, first: usize) {
@@ -219,11 +223,11 @@ impl Builder<'_, '_> {
         let block = cx.program.main().block(known.block);
         let port = declared_port(cx, block, known.port as usize);
         let key = Key { shape: u32::MAX, period: None, fixed: format!("{} {port} {:?}", block.decl.0, block.sizes) };
-        let name = match self.variants.get(&key) {
-            Some(variant) => variant.name.clone(),
+        let name = match self.variants.get(&key).and_then(|variant| variant.starts.first()) {
+            Some((_, name)) => name.clone(),
             None => {
                 let name = cell_code(&mut self.rows.text, cx, statics, block, port, known.ty);
-                self.variants.insert(key, Variant { name: name.clone(), started: String::new(), bare: None });
+                self.variants.entry(key).or_default().starts.push((String::new(), name.clone()));
                 name
             }
         };
@@ -301,11 +305,11 @@ fn adapter(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, code: &
     let mut body = String::from("    ");
     bodies::function_call(&mut body, statics, call, call.block().unit, entry);
     body.push_str(";\n");
-    let name = statics.name(&format!("{}_{code}", if entry == Entry::Tune { "derive" } else { "start" }));
-    let _ = writeln!(out, "static void {name}(void *instance, const void *parameters)\n{{");
-    pointers(out, call, &body, "");
-    let _ = writeln!(out, "{body}}}\n");
-    name
+    let mut text = String::from("(void *instance, const void *parameters)\n{\n");
+    pointers(&mut text, call, &body, "");
+    let _ = writeln!(text, "{body}}}\n");
+    let suffix = format!("{}_{code}", if entry == Entry::Tune { "derive" } else { "start" });
+    statics.define(out, "static void ", &suffix, &text)
 }
 
 fn check_adapter(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, code: &str) -> String {
@@ -322,15 +326,13 @@ fn check_adapter(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, c
     } else {
         body.push_str("    return 0;\n");
     }
-    let name = statics.name(&format!("check_{code}"));
-    let arguments = "const void *instance, const void *parameters, pcl2_real *left";
-    let _ = writeln!(out, "static int32_t {name}({arguments})\n{{");
-    pointers(out, call, &body, "const ");
+    let mut text = String::from("(const void *instance, const void *parameters, pcl2_real *left)\n{\n");
+    pointers(&mut text, call, &body, "const ");
     if !judged {
-        out.push_str("    (void)left;\n");
+        text.push_str("    (void)left;\n");
     }
-    let _ = writeln!(out, "{body}}}\n");
-    name
+    let _ = writeln!(text, "{body}}}\n");
+    statics.define(out, "static int32_t ", &format!("check_{code}"), &text)
 }
 
 /// The places of the parameters in the map's order.
@@ -353,9 +355,8 @@ fn places(out: &mut String, cx: &Context<'_>, statics: &mut Statics, id: BlockId
         };
         count += 1;
     }
-    let name = statics.name(&format!("places_{code}"));
-    let _ = writeln!(out, "static const struct pcl2_place {name}[{count}] = {{\n{text}}};\n");
-    (name, count)
+    let text = format!("[{count}] = {{\n{text}}};\n\n");
+    (statics.define(out, "static const struct pcl2_place ", &format!("places_{code}"), &text), count)
 }
 
 struct Code {
@@ -399,16 +400,22 @@ fn cell_code(
     let place = Checked { tail: &declared.tail, scalar: facts::element_scalar(&declared.ty), number: 1 };
     check::range(&mut body, statics, &place, value, count, &block.sizes, cx.program.width, &operand);
     let check = (!body.is_empty()).then(|| {
-        let name = statics.name(&format!("check_{suffix}"));
         let element = kernel::c_scalar(ty.scalar);
-        let arguments = "const void *instance, const void *parameters, pcl2_real *left";
-        let _ = writeln!(out, "static int32_t {name}({arguments})\n{{");
-        let _ = writeln!(out, "    const {element} *const value = instance;\n    (void)parameters;\n    (void)left;");
-        let _ = writeln!(out, "{body}    return 0;\n}}\n");
-        name
+        let text = format!(
+            "(const void *instance, const void *parameters, pcl2_real *left)
+{{
+    const {element} *const value = instance;
+    (void)parameters;
+    (void)left;
+{body}    return 0;
+}}
+
+"
+        );
+        statics.define(out, "static int32_t ", &format!("check_{suffix}"), &text)
     });
-    let places = statics.name(&format!("places_{suffix}"));
     let kind = if ty.scalar == Scalar::Int { "PCL2_INT" } else { "PCL2_REAL" };
-    let _ = writeln!(out, "static const struct pcl2_place {places}[1] = {{\n    {{0, {}, {kind}, 0}},\n}};\n", ty.elements());
+    let text = format!("[1] = {{\n    {{0, {}, {kind}, 0}},\n}};\n\n", ty.elements());
+    let places = statics.define(out, "static const struct pcl2_place ", &format!("places_{suffix}"), &text);
     code_struct(out, statics, &suffix, &Code { check, tune: None, init: None, places: (places, 1) })
 }

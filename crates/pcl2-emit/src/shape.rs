@@ -8,7 +8,7 @@ use pcl2_lang::types::Width;
 use std::fmt::Write;
 
 /// One field of a generated struct.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Field {
     /// The C name.
     pub(crate) name: String,
@@ -42,6 +42,8 @@ pub(crate) struct Shape {
     pub(crate) form: Form,
     /// The struct's tag, for [`Form::Struct`].
     pub(crate) tag: String,
+    /// The struct is declared with this shape; false where an earlier one has the same fields.
+    pub(crate) declared: bool,
     /// The fields beside the kernel's struct.
     pub(crate) fields: Vec<Field>,
     /// The name of the kernel's struct among them, if there is one.
@@ -109,7 +111,7 @@ pub(crate) fn of_kernel(code: &Code<'_>, block: &Block, key: &Key) -> Shape {
         (1, None) if single => Form::Plain,
         _ => Form::Struct,
     };
-    Shape { decl: key.decl, form, tag: String::new(), fields: fields.list, state, params, memory, tuned, outputs, cold: None }
+    Shape { decl: key.decl, form, tag: String::new(), declared: false, fields: fields.list, state, params, memory, tuned, outputs, cold: None }
 }
 
 fn params_none(params: &Vec<Option<usize>>) -> bool {
@@ -135,6 +137,7 @@ pub(crate) fn of_body(unit: UnitId, decl: DeclId) -> Shape {
         decl,
         form: Form::Body(unit),
         tag: String::new(),
+        declared: false,
         fields: Vec::new(),
         state: None,
         params: Vec::new(),

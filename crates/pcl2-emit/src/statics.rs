@@ -12,13 +12,20 @@ pub(crate) struct Statics {
     program: String,
     names: Namer<'static>,
     known: FxHashMap<String, String>,
+    arrays: usize,
     text: String,
 }
 
 impl Statics {
     /// Begins with the names that are taken.
     pub(crate) fn new(program: &str, names: &Namer<'static>) -> Statics {
-        Statics { program: program.to_owned(), names: names.clone(), known: FxHashMap::default(), text: String::new() }
+        Statics {
+            program: program.to_owned(),
+            names: names.clone(),
+            known: FxHashMap::default(),
+            arrays: 0,
+            text: String::new(),
+        }
     }
 
     /// A name at file scope: the program's, and this behind it.
@@ -34,9 +41,25 @@ impl Statics {
         if let Some(name) = self.known.get(&key) {
             return name.clone();
         }
-        let name = self.name(&format!("k{}", self.known.len() + 1));
+        self.arrays += 1;
+        let name = self.name(&format!("k{}", self.arrays));
         let (element, elements) = (&key[..element], &key[element + 1..]);
         let _ = writeln!(self.text, "static const {element} {name}[{count}] = {{\n    {elements},\n}};\n");
+        self.known.insert(key, name.clone());
+        name
+    }
+
+    /// Appends a definition, given what stands before and behind its name, and returns the name; an equal one is used
+    /// again.
+    pub(crate) fn define(&mut self, out: &mut String, before: &str, suffix: &str, behind: &str) -> String {
+        let key = format!("{before}{suffix}{behind}");
+        if let Some(name) = self.known.get(&key) {
+            return name.clone();
+        }
+        let name = self.name(suffix);
+        out.push_str(before);
+        out.push_str(&name);
+        out.push_str(behind);
         self.known.insert(key, name.clone());
         name
     }

@@ -97,21 +97,26 @@ fn part_function(out: &mut String, cx: &Context<'_>, statics: &mut Statics, p: u
     out.push_str("}\n\n");
 }
 
-/// Writes the calls of a run of blocks; statuses are gathered and looked at once.
+/// Writes the calls of a run of blocks. In a short section statuses are gathered and looked at once; in a part of a
+/// long one their table is walked: a statement a block would cost the C compiler a quarter of its time.
 fn blocks(out: &mut String, cx: &Context<'_>, statics: &mut Statics, first: u32, end: u32, part: u32) {
     let scope = Scope { unit: UnitId(0), root: "self->", part };
     let (from, to) = status_range(cx, first, end);
-    if to > from {
+    let gathered = to > from && part == WHOLE;
+    if gathered {
         out.push_str("    int32_t faults = 0;\n");
     }
     for id in (first..end).map(BlockId) {
-        if calls::step(out, cx, statics, scope, id, INDENT) {
+        if calls::step(out, cx, statics, scope, id, INDENT) && gathered {
             out.push_str("    faults |= ");
             calls::status(out, cx, scope, id);
             out.push_str(";\n");
         }
     }
-    if to > from {
+    if to > from && !gathered {
+        let _ = writeln!(out, "    {}_status(self, {from}, {to});", cx.name);
+    }
+    if gathered {
         let _ = writeln!(out, "    if (faults != 0) {{\n        {}_status(self, {from}, {to});\n    }}", cx.name);
     }
 }
