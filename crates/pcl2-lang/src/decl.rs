@@ -140,7 +140,7 @@ pub enum Item {
     /// A constant: an integer known at compile time.
     Constant(ConstantDecl),
     /// An input port.
-    Port(PortDecl),
+    Port(Box<PortDecl>),
 }
 
 /// An integer constant of the input list.
@@ -293,7 +293,7 @@ impl Decl {
     /// The ports of the input list in order.
     pub fn ports(&self) -> impl Iterator<Item = &PortDecl> {
         self.items.iter().filter_map(|item| match item {
-            Item::Port(port) => Some(port),
+            Item::Port(port) => Some(port.as_ref()),
             Item::Constant(_) | Item::Literal(_) => None,
         })
     }

@@ -172,10 +172,7 @@ impl<'a> Lines<'a> {
         let mut open: Vec<Lexeme> = Vec::new();
         let mut open_text = false;
         let mut bad = Bad::default();
-        loop {
-            let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) else {
-                break;
-            };
+        while let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) {
             match lexeme.token {
                 Token::Newline if open.is_empty() && self.tokens.is_empty() => continue,
                 Token::Newline if open.is_empty() => break,
@@ -517,9 +514,8 @@ impl<'a> Context<'a> {
     /// Keeps what others may refer to of a line that is not understood: its section, or its number and output names.
     fn spoil(&mut self, tokens: &[Lexeme], tree: &mut Tree) {
         let first = tokens.first().map(|lexeme| (lexeme.token, self.span(lexeme.start, lexeme.end)));
-        match first {
-            Some((Token::Key(_), span)) => tree.lines.push(Line::UnknownSection(span)),
-            _ => {}
+        if let Some((Token::Key(_), span)) = first {
+            tree.lines.push(Line::UnknownSection(span));
         }
         for lexeme in tokens {
             let text = self.text(self.span(lexeme.start, lexeme.end));

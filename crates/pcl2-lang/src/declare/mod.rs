@@ -233,7 +233,7 @@ fn declare_item(context: &mut Context<'_>, decl: &Decl, item: &raw::Item) -> Ite
             if port.cell && default.is_none() {
                 complain(context, port.name.span, "expected a default for an operator cell, found none");
             }
-            Item::Port(PortDecl {
+            Item::Port(Box::new(PortDecl {
                 name: context.symbol_text(port.name.symbol).to_owned(),
                 ty,
                 cell: port.cell,
@@ -241,7 +241,7 @@ fn declare_item(context: &mut Context<'_>, decl: &Decl, item: &raw::Item) -> Ite
                 default,
                 tail,
                 tracks: port.tracks.map(|name| context.symbol_text(name.symbol).to_owned()),
-            })
+            }))
         }
     }
 }

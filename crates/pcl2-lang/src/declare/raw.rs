@@ -47,7 +47,7 @@ pub enum Item {
     /// An integer constant.
     Constant(Name, Option<Range>),
     /// A port.
-    Port(Port),
+    Port(Box<Port>),
 }
 
 /// An input port.
