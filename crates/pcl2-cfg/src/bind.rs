@@ -58,13 +58,13 @@ struct Binder<'b, 'a> {
 impl<'a> Binder<'_, 'a> {
     fn inputs(&mut self) {
         self.draft.sizes = vec![None; self.decl.sizes.len()];
-        let places = &self.draft.statement.inputs;
-        let positional = match &places[..] {
-            [only] if only.label.is_none() && only.value == Operand::Empty => 0,
-            _ => places.iter().position(|place| place.label.is_some()).unwrap_or(places.len()),
+        let places = self.draft.statement.inputs();
+        let positional = match places {
+            [only] if only.label().is_none() && only.value == Operand::Empty => 0,
+            _ => places.iter().position(|place| place.label().is_some()).unwrap_or(places.len()),
         };
         let (by_position, named) = places.split_at(positional);
-        let named = if positional == 0 && places.len() == 1 && places[0].label.is_none() { &[] } else { named };
+        let named = if positional == 0 && places.len() == 1 && places[0].label().is_none() { &[] } else { named };
         self.constants_behind_groups(by_position);
         if self.group_fits(by_position) {
             self.walk(by_position, named);
@@ -142,7 +142,7 @@ impl<'a> Binder<'_, 'a> {
     }
 
     fn label(&mut self, place: &'a Place, labels: &mut Vec<(&'a str, &'a Place)>) {
-        let Some(label) = place.label else {
+        let Some(label) = place.label() else {
             let message = format!("expected a named input after the named ones of {}, found one without a name", self.decl.name);
             self.push(Diagnostic::new(codes::INPUT_COUNT, place.span, message));
             return;
@@ -263,14 +263,14 @@ impl<'a> Binder<'_, 'a> {
     /// Inputs that are left over.
     fn rest(&mut self, places: &[Place], labels: &[(&str, &'a Place)]) {
         if let Some(place) = places.first() {
-            let count = self.draft.statement.inputs.len();
+            let count = self.draft.statement.inputs().len();
             let expected = count_word(count - places.len(), "input");
             let message = format!("expected {expected} of {}, found {count}", self.decl.name);
             self.push(Diagnostic::new(codes::INPUT_COUNT, place.span, message).help(self.form()));
         }
         for (name, place) in labels {
             let message = format!("expected the name of an input of {}, found `{name}`", self.decl.name);
-            let span = place.label.map_or(place.span, |label| label.span);
+            let span = place.label().map_or(place.span, |label| label.span);
             let help = if self.decl.params.iter().any(|param| param.name == *name) {
                 Some(format!("`{name}` is a parameter: it stands behind the `:`"))
             } else {

@@ -27,7 +27,7 @@ pub fn wanted_files(tree: &Tree, sources: &Sources, symbols: &Symbols, catalogue
         };
         let decl = catalogue.find(symbols.text(statement.code.symbol));
         let takes_text = decl.is_some_and(|decl| decl.params.iter().any(|param| param.ty == TypeExpr::Text));
-        for place in &statement.params {
+        for place in statement.params() {
             if let (Operand::Text(span), false) = (&place.value, takes_text) {
                 names.push(sources.text(*span).to_owned());
             }

@@ -65,9 +65,9 @@ struct Reader<'r, 'a> {
 
 impl<'a> Reader<'_, 'a> {
     fn read(&mut self) -> Vec<Param> {
-        let places = &self.statement.params;
-        let empty = matches!(&places[..], [only] if only.label.is_none() && only.value == Operand::Empty);
-        let positional = if empty { 0 } else { places.iter().position(|p| p.label.is_some()).unwrap_or(places.len()) };
+        let places = self.statement.params();
+        let empty = matches!(places, [only] if only.label().is_none() && only.value == Operand::Empty);
+        let positional = if empty { 0 } else { places.iter().position(|p| p.label().is_some()).unwrap_or(places.len()) };
         let (by_position, named) = places.split_at(positional);
         let named = if empty { &[] } else { named };
         if let Some(params) = self.whole_list_file(by_position, named) {
@@ -160,7 +160,7 @@ impl<'a> Reader<'_, 'a> {
     fn too_few(&mut self, index: usize) {
         let param = &self.decl.params[index];
         let total: usize = self.decl.params.iter().map(|param| self.elements(param)).sum();
-        let found = self.statement.params.len();
+        let found = self.statement.params().len();
         let end = self.statement.span.end;
         let at = Span { start: end.saturating_sub(1), ..self.statement.span };
         let expected = count_word(total, "parameter");
@@ -248,7 +248,7 @@ impl<'a> Reader<'_, 'a> {
 
     fn named(&mut self, places: &[Place], params: &mut [Option<Param>]) {
         for place in places {
-            let Some(label) = place.label else {
+            let Some(label) = place.label() else {
                 let message = format!("expected a named parameter after the named ones of {}, found one without a name", self.decl.name);
                 self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, place.span, message));
                 continue;
@@ -335,18 +335,18 @@ impl<'a> Reader<'_, 'a> {
         match scalar {
             Scalar::Int => {
                 let numbers = numbers.iter().enumerate();
-                let ints: Vec<i32> = numbers.map(|(i, number)| self.to_int(param, *number, span_of(i))).collect();
+                let ints: Vec<i32> = numbers.map(|(i, number)| self.int_of(param, *number, span_of(i))).collect();
                 if single { Value::Int(ints.first().copied().unwrap_or(0)) } else { Value::Ints(ints.into()) }
             }
             Scalar::Real => {
                 let numbers = numbers.iter().enumerate();
-                let reals: Vec<Real> = numbers.map(|(i, number)| self.to_real(param, *number, span_of(i))).collect();
+                let reals: Vec<Real> = numbers.map(|(i, number)| self.real_of(param, *number, span_of(i))).collect();
                 if single { Value::Real(reals.first().copied().unwrap_or(Real::ZERO)) } else { Value::Reals(reals.into()) }
             }
         }
     }
 
-    fn to_int(&mut self, param: &ParamDecl, number: Number, span: Span) -> i32 {
+    fn int_of(&mut self, param: &ParamDecl, number: Number, span: Span) -> i32 {
         match number {
             Number::Int(value) => value,
             Number::Real(value) => {
@@ -357,7 +357,7 @@ impl<'a> Reader<'_, 'a> {
         }
     }
 
-    fn to_real(&mut self, param: &ParamDecl, number: Number, span: Span) -> Real {
+    fn real_of(&mut self, param: &ParamDecl, number: Number, span: Span) -> Real {
         let real = match number {
             Number::Int(value) => Real::from_int(value),
             Number::Real(value) => value,
@@ -419,13 +419,13 @@ impl<'a> Reader<'_, 'a> {
 
     /// Where the value of a parameter stands.
     fn place_of(&self, param: usize, element: usize) -> Span {
-        let places = &self.statement.params;
+        let places = self.statement.params();
         let name = &self.decl.params[param].name;
         let labelled = places.iter().find(|place| {
-            place.label.is_some_and(|label| self.input.symbols.text(label.symbol) == *name)
+            place.label().is_some_and(|label| self.input.symbols.text(label.symbol) == *name)
         });
         let before: usize = self.decl.params[..param].iter().map(|param| self.elements(param)).sum();
-        let by_position = places.get(before + element).filter(|place| place.label.is_none());
+        let by_position = places.get(before + element).filter(|place| place.label().is_none());
         labelled.or(by_position).map_or(self.statement.code.span, |place| place.span)
     }
 

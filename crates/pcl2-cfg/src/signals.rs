@@ -102,11 +102,12 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
     }
     let mut number = scope.drafts[index].number;
     for o in 0..count {
+        let port = names.get(o).map_or("", String::as_str);
         let id = match (statement.outputs.get(o), tag) {
             (Some(Output::Name(name)), _) => named(input, scope, *name),
-            (None, Some(tag)) => member(input, scope, tag, &names[o]),
+            (None, Some(tag)) => member(input, scope, tag, port),
             (Some(Output::Discard(span)), _) => push_wire(scope, String::new(), *span),
-            (None, None) if statement.outputs.is_empty() && names[o] != RETURN_PORT => {
+            (None, None) if statement.outputs.is_empty() && port != RETURN_PORT => {
                 let id = push_wire(scope, number.to_string(), statement.code.span);
                 scope.by_number.insert(number, (BlockId(index as u32), o as u32));
                 number = number.saturating_add(1);
@@ -216,8 +217,8 @@ impl<'a> Wirer<'_, 'a> {
                 None
             }
             Operand::Name(name) => self.name(port, *name),
-            Operand::Element(name, indexes) => self.element(*name, indexes),
-            Operand::Member(tag, member) => self.member(*tag, *member),
+            Operand::Element(element) => self.element(element.0, &element.1),
+            Operand::Member(member) => self.member(member.0, member.1),
             Operand::Number(Number::Int(number)) => self.number(port, *number, place.span),
             Operand::Number(Number::Real(_)) => {
                 let text = self.input.sources.text(place.span);

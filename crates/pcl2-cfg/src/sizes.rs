@@ -391,9 +391,10 @@ fn check_port<'a>(
 
 /// The flat place of `a[1]` or `m[1,2]`.
 fn element(scope: &Scope<'_>, id: SignalId, whole: Type, operand: &Operand, diagnostics: &mut Vec<Diagnostic>) -> Option<u32> {
-    let Operand::Element(name, indexes) = operand else {
+    let Operand::Element(element) = operand else {
         return None;
     };
+    let (name, indexes) = &**element;
     let wire = scope.wire(id);
     let mut complain = |span: Span, message: String| {
         diagnostics.push(Diagnostic::new(codes::INDEX_RANGE, span, message).label(wire.span, format!("`{}` is {whole}", wire.name)));
