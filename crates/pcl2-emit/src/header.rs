@@ -2,6 +2,7 @@
 
 use crate::code::place_elements;
 use crate::context::Context;
+use crate::io;
 use crate::facts::element_scalar;
 use crate::layout::{self, Border, WHOLE};
 use crate::shape::{self, Cold, Form, Shape};
@@ -18,6 +19,10 @@ pub(crate) fn header(cx: &Context<'_>, layout_hash: u64) -> String {
     let guard = format!("{}_H", name.to_uppercase());
     let _ = writeln!(out, "/* {name}: one instance of the controller, and what there is to do with it. */");
     let _ = writeln!(out, "#ifndef {guard}\n#define {guard}\n\n#include \"pcl2.h\"\n#include \"pcl2_map.h\"");
+    let points = io::points(cx);
+    if points > 0 {
+        out.push_str("#include \"pcl2_io.h\"\n");
+    }
     for stem in stems(cx) {
         let _ = writeln!(out, "#include \"pcl2_{stem}.h\"");
     }
@@ -27,6 +32,13 @@ pub(crate) fn header(cx: &Context<'_>, layout_hash: u64) -> String {
     structs(&mut out, cx);
     instance(&mut out, cx);
     functions(&mut out, name);
+    if points > 0 {
+        let _ = writeln!(
+            out,
+            "/* The physical points, for pcl2_latch before a step and pcl2_deliver after it; in {name}_io.c. */\n\
+             extern const struct pcl2_io_point {name}_io[{points}];\n"
+        );
+    }
     let _ = writeln!(out, "#ifdef __cplusplus\n}}\n#endif\n\n#endif");
     out
 }

@@ -9,8 +9,7 @@ use std::fmt::Write;
 
 /// Writes the table of points; `None` when nothing of this part is bound.
 pub(crate) fn io(cx: &Context<'_>) -> Option<String> {
-    let bound: Vec<(&Binding, Word)> =
-        cx.program.bindings.iter().filter_map(|binding| word(cx, &binding.name).map(|word| (binding, word))).collect();
+    let bound = bound(cx);
     if bound.is_empty() {
         return None;
     }
@@ -18,7 +17,6 @@ pub(crate) fn io(cx: &Context<'_>) -> Option<String> {
     let mut out = format!(
         "/* The physical points of {name}: for pcl2_latch and pcl2_deliver. Leave this file out for I/O of your own. */\n\
          #include \"{name}.h\"\n\n#include \"pcl2_io.h\"\n\n#include <stddef.h>\n\n\
-         extern const struct pcl2_io_point {name}_io[{count}];\n\
          const struct pcl2_io_point {name}_io[{count}] = {{\n",
         count = bound.len()
     );
@@ -27,6 +25,16 @@ pub(crate) fn io(cx: &Context<'_>) -> Option<String> {
     }
     out.push_str("};\n");
     Some(out)
+}
+
+/// How many points of this part are bound.
+pub(crate) fn points(cx: &Context<'_>) -> usize {
+    bound(cx).len()
+}
+
+fn bound<'c>(cx: &'c Context<'_>) -> Vec<(&'c Binding, Word)> {
+    let bindings = cx.program.bindings.iter();
+    bindings.filter_map(|binding| word(cx, &binding.name).map(|word| (binding, word))).collect()
 }
 
 /// A word of the instance.

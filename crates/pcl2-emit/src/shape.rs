@@ -91,7 +91,7 @@ pub(crate) fn of_kernel(code: &Code<'_>, block: &Block, key: &Key) -> Shape {
     let decl = code.decl;
     let mut fields = Fields::default();
     let params = decl.params.iter().enumerate();
-    let params = params
+    let params: Vec<Option<usize>> = params
         .map(|(i, param)| {
             let hot = key.tunable && !param.fixed && code.step_takes(i);
             if hot { fields.add(&param.name, &param.ty, 1, &block.sizes) } else { None }
@@ -114,7 +114,7 @@ pub(crate) fn of_kernel(code: &Code<'_>, block: &Block, key: &Key) -> Shape {
     Shape { decl: key.decl, form, tag: String::new(), declared: false, fields: fields.list, state, params, memory, tuned, outputs, cold: None }
 }
 
-fn params_none(params: &Vec<Option<usize>>) -> bool {
+fn params_none(params: &[Option<usize>]) -> bool {
     params.iter().all(Option::is_none)
 }
 
