@@ -1,6 +1,7 @@
 //! The embedded engine: scans between two events or two rows run without a look around.
 
 use super::job::Job;
+use super::pace::Pace;
 use super::progress::Progress;
 use super::recorder::{Recorder, Recording};
 use super::{Failure, Finished};
@@ -15,7 +16,11 @@ pub(crate) fn run(job: &Job<'_>, mut machine: Machine<'_>, recorder: &mut Record
     let mut row: Vec<Number> = Vec::with_capacity(columns.len());
     let mut events = job.events.as_slice();
     let mut scan = 0;
+    let pace = job.realtime.map(Pace::new);
     while scan < job.scans {
+        if let Some(pace) = &pace {
+            pace.wait(scan);
+        }
         let due = events.partition_point(|event| event.scan <= scan);
         if due > 0 {
             if let Err(refusal) = machine.apply(job.names, &events[..due]) {
@@ -26,6 +31,7 @@ pub(crate) fn run(job: &Job<'_>, mut machine: Machine<'_>, recorder: &mut Record
         let recorded = recorder.next(scan);
         let event = events.first().map_or(u64::MAX, |event| event.scan);
         let end = recorded.saturating_add(1).min(event).min(job.scans).min(scan.saturating_add(progress.stride()));
+        let end = if pace.is_some() { scan + 1 } else { end };
         machine.run(end - scan);
         scan = end;
         if scan.checked_sub(1) == Some(recorded) {

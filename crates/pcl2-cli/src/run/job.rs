@@ -21,6 +21,8 @@ pub(crate) struct Job<'a> {
     pub(crate) columns: Vec<Element>,
     /// The tunable parameters.
     pub(crate) params: Vec<Element>,
+    /// The period to keep to, in nanoseconds.
+    pub(crate) realtime: Option<i64>,
 }
 
 impl<'a> Job<'a> {
@@ -40,7 +42,12 @@ impl<'a> Job<'a> {
                 trace::select(names, &lists.join(",")).map_err(|error| Failure::usage(format!("--record: {error}")))?
             }
         };
-        Ok(Job { names, events: stimulus::merge(stimulus.events, sets), scans, columns, params: params(names) })
+        let realtime = match (args.realtime, names.program.period) {
+            (true, None) => return Err(Failure::usage("--realtime needs a period: give --period")),
+            (true, period) => period,
+            (false, _) => None,
+        };
+        Ok(Job { names, realtime, events: stimulus::merge(stimulus.events, sets), scans, columns, params: params(names) })
     }
 
     /// Lines `NAME=VALUE` of the tunable parameters.

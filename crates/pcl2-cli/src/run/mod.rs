@@ -4,6 +4,7 @@ mod compiled;
 mod embedded;
 mod files;
 mod job;
+mod pace;
 mod progress;
 mod recorder;
 mod summary;
@@ -52,6 +53,9 @@ pub(crate) struct RunArgs {
     /// Compile for this target and run on QEMU's board for it: cortex-m3, cortex-m4, cortex-m7
     #[arg(long, value_name = "NAME", conflicts_with = "engine")]
     pub(crate) target: Option<String>,
+    /// Run each scan when it is due by the clock on the wall
+    #[arg(long, conflicts_with_all = ["engine", "target"])]
+    pub(crate) realtime: bool,
     /// Write the parameters as they are at the end
     #[arg(long, value_name = "FILE")]
     pub(crate) params: Option<PathBuf>,
@@ -102,7 +106,11 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
     let names = Names::new(verified.program());
     let ended = Job::new(args, &names).and_then(|job| {
         let toolchain = toolchain(args)?;
-        let wish = if args.target.is_some() { Some(Engine::Cc) } else { args.engine };
+        let wish = match (&args.target, args.realtime) {
+            (Some(_), _) => Some(Engine::Cc),
+            (None, true) => Some(Engine::Embedded),
+            (None, false) => args.engine,
+        };
         let engine = choose(wish, &verified)?;
         let recorder = Recorder::new(&job, args.trace.as_deref())?;
         execute(args, &job, recorder, |recorder| match engine {
