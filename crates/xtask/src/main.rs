@@ -1,5 +1,6 @@
 //! `cargo xtask`: the project's chores.
 
+mod bench;
 mod packages;
 mod scaffold;
 mod shell;
@@ -20,6 +21,8 @@ struct Cli {
 enum Command {
     /// Run the whole test suite; installs the C compilers and emulators it needs where it may
     Test,
+    /// Measure, and hold the numbers against the bars
+    Bench(bench::BenchArgs),
     /// Begin a function code: blocks/GROUP/CODE.fc and its kernel
     NewBlock {
         /// The group, a folder below blocks/
@@ -37,6 +40,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Test => suite::test(),
+        Command::Bench(args) => bench::bench(&args),
         Command::NewBlock { group, code } => scaffold::new_block(&group, &code),
         Command::NewCase { name } => scaffold::new_case(&name),
     };

@@ -15,23 +15,39 @@ const NEEDED: [(&str, &str); 5] = [
 /// Libraries without a program of their own: a file that tells, and the package.
 const LIBRARIES: [(&str, &str); 1] = [("/usr/lib/arm-none-eabi/include/stdint.h", "libnewlib-arm-none-eabi")];
 
-/// Installs what is missing where the system lets us; otherwise says what to install.
+/// What the benchmarks compare with.
+const PEERS: [(&str, &str); 2] = [("/usr/include/eigen3/Eigen/Core", "libeigen3-dev"), ("/usr/bin/g++", "g++")];
+
+/// Installs what the tests need and is missing.
 pub(crate) fn install() -> Result<(), String> {
     let programs = NEEDED.iter().filter(|(program, _)| !found(program)).map(|(_, package)| *package);
-    let libraries = LIBRARIES.iter().filter(|(file, _)| !std::path::Path::new(file).exists()).map(|(_, package)| *package);
-    let missing: Vec<&str> = programs.chain(libraries).collect();
+    install_packages(&programs.chain(without(&LIBRARIES)).collect::<Vec<_>>())
+}
+
+/// Installs what the benchmarks compare with.
+pub(crate) fn install_peers() -> Result<(), String> {
+    install_packages(&without(&PEERS).collect::<Vec<_>>())
+}
+
+/// The packages of files that are not there.
+fn without(files: &'static [(&'static str, &'static str)]) -> impl Iterator<Item = &'static str> {
+    files.iter().filter(|(file, _)| !std::path::Path::new(file).exists()).map(|(_, package)| *package)
+}
+
+/// Installs packages where the system lets us; otherwise says what to install.
+fn install_packages(missing: &[&str]) -> Result<(), String> {
     if missing.is_empty() {
         return Ok(());
     }
     let wanted = missing.join(" ");
     if !(found("apt-get") && is_root()) {
-        return Err(format!("the tests need these Debian packages: {wanted}; install them and try again"));
+        return Err(format!("these Debian packages are needed: {wanted}; install them and try again"));
     }
     say(&format!("installing {wanted}"));
     run(Command::new("apt-get").args(["update", "-qq"]))?;
     let mut apt = Command::new("apt-get");
     apt.env("DEBIAN_FRONTEND", "noninteractive").args(["install", "-y", "-qq", "--no-install-recommends"]);
-    run(apt.args(&missing))
+    run(apt.args(missing))
 }
 
 fn is_root() -> bool {
