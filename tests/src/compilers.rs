@@ -87,6 +87,11 @@ fn finish(mut command: Command, cases: &[&Case], width: Width, folder: TempDir) 
 }
 
 impl Built {
+    /// An empty folder for builds with options of their own.
+    pub fn empty() -> Built {
+        Built { folder: folder(), cases: Vec::new() }
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         self.folder.path()

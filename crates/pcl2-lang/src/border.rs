@@ -25,7 +25,7 @@ enum Side {
 }
 
 /// The wanted part. Signals that cross the border become inputs and outputs. A program without PLANT is its own
-/// controller.
+/// controller. The plant has a name of its own, so that both parts can stand in one C program.
 pub fn cut(program: &Program, part: Part) -> Program {
     let sides = sides(program);
     let own = match part {
@@ -39,6 +39,7 @@ pub fn cut(program: &Program, part: Part) -> Program {
     let unit = cutter.unit();
     let (units, unit_ids) = reachable_units(program, &unit);
     let mut cut = Program {
+        name: if part == Part::Plant { format!("{}_plant", program.name) } else { program.name.clone() },
         units: std::iter::once(unit).chain(units).collect(),
         sections: sections(program, &kept),
         images: cutter.images.iter().map(|id| program.images[id.0 as usize].clone()).collect(),
