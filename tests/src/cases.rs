@@ -154,8 +154,17 @@ impl Case {
 
     /// A run with everything that the case says, the trace on standard output.
     pub fn run(&self, engine: &str, width: Width) -> Command {
+        self.run_by(["--engine", engine], width)
+    }
+
+    /// The same on an emulated board.
+    pub fn run_on(&self, target: &str, width: Width) -> Command {
+        self.run_by(["--target", target], width)
+    }
+
+    fn run_by(&self, runner: [&str; 2], width: Width) -> Command {
         let mut command = self.command("run");
-        command.args(["--engine", engine, "--real", width.name(), "--trace", "-"]).args(&self.config.run);
+        command.args(runner).args(["--real", width.name(), "--trace", "-"]).args(&self.config.run);
         if self.has("stimulus.csv") {
             command.args(["--stimulus", "stimulus.csv"]);
         }
