@@ -78,7 +78,7 @@ pub(crate) struct CheckArgs {
     #[arg(short, long)]
     pub(crate) verbose: bool,
     /// How diagnostics are printed
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_enum, default_value_t = Format::Text, conflicts_with = "verbose")]
     pub(crate) format: Format,
     /// Print how long each phase took
     #[arg(long)]
