@@ -113,6 +113,7 @@ impl<'a> Binder<'_, 'a> {
 
     fn walk(&mut self, places: &'a [Place], named: &'a [Place]) {
         let decl = self.decl;
+        self.draft.operands.reserve_exact(places.len() + named.len());
         let mut next = places.iter();
         let mut labels: Vec<(&str, &'a Place)> = Vec::new();
         for place in named {

@@ -71,7 +71,7 @@ fn body<'a>(
     }
     composites.open.push(decl.name.clone());
     let statements: Vec<(&Statement, u32)> = decl.body.iter().flatten().map(|statement| (statement, 0)).collect();
-    let mut scope = Scope::new(&statements, Some((decl, sizes)));
+    let mut scope = Scope::new(statements, Some((decl, sizes)));
     draft::complete(input, &mut scope, composites, diagnostics);
     refuse_images(&scope, diagnostics);
     composites.open.pop();

@@ -34,7 +34,7 @@ pub(crate) struct Draft<'a> {
     pub(crate) params: Vec<Param>,
     /// The signal of each output (groups expanded).
     pub(crate) outputs: Vec<SignalId>,
-    pub(crate) image: Option<ImageWord>,
+    pub(crate) image: Option<Box<ImageWord>>,
     pub(crate) unit: Option<usize>,
 }
 
@@ -54,13 +54,11 @@ pub(crate) struct Scope<'a> {
     pub(crate) drafts: Vec<Draft<'a>>,
     pub(crate) wires: Vec<Wire>,
     /// Variables and tags.
-    pub(crate) by_name: FxHashMap<Symbol, SignalId>,
-    /// The block of a tag, for its members.
-    pub(crate) tags: FxHashMap<Symbol, BlockId>,
+    pub(crate) by_name: NameTable,
     /// The signal of a tag's output, by the output's name.
     pub(crate) members: FxHashMap<(Symbol, String), SignalId>,
     /// Blocks and ports by number.
-    pub(crate) by_number: FxHashMap<u32, (BlockId, u32)>,
+    pub(crate) by_number: NumberTable,
     pub(crate) cells: Vec<Cell>,
     /// Names of which nothing is known, and nothing more is said.
     pub(crate) spoiled: FxHashSet<Symbol>,
@@ -71,20 +69,57 @@ pub(crate) struct Scope<'a> {
     pub(crate) outputs: Vec<SignalId>,
 }
 
+/// The signal of each name. Symbols are small numbers given in order of the text: a plain table beats a hash map.
+#[derive(Default)]
+pub(crate) struct NameTable(Vec<Option<SignalId>>);
+
+impl NameTable {
+    pub(crate) fn get(&self, name: Symbol) -> Option<SignalId> {
+        self.0.get(name.0 as usize).copied().flatten()
+    }
+
+    pub(crate) fn insert(&mut self, name: Symbol, id: SignalId) {
+        let index = name.0 as usize;
+        if self.0.len() <= index {
+            self.0.resize(index + 1, None);
+        }
+        self.0[index] = Some(id);
+    }
+}
+
+/// The output behind each number: filled, then sorted, then asked.
+#[derive(Default)]
+pub(crate) struct NumberTable(Vec<(u32, BlockId, u32)>);
+
+impl NumberTable {
+    pub(crate) fn push(&mut self, number: u32, block: BlockId, output: u32) {
+        self.0.push((number, block, output));
+    }
+
+    pub(crate) fn sort(&mut self) {
+        self.0.sort_by_key(|entry| entry.0);
+    }
+
+    pub(crate) fn get(&self, number: u32) -> Option<(BlockId, u32)> {
+        let first = self.0.partition_point(|entry| entry.0 < number);
+        self.0.get(first).filter(|entry| entry.0 == number).map(|(_, block, output)| (*block, *output))
+    }
+}
+
 impl<'a> Scope<'a> {
     /// The program's own scope.
-    pub(crate) fn program(input: &Input<'a>, sectioned: &Sectioned<'a>) -> Scope<'a> {
-        let mut scope = Scope::new(&sectioned.statements, None);
+    pub(crate) fn program(input: &Input<'a>, statements: Vec<(&'a Statement, u32)>) -> Scope<'a> {
+        let mut scope = Scope::new(statements, None);
         scope.spoiled.extend(input.tree.spoiled.iter().copied());
         scope.spoiled_numbers.extend(input.tree.spoiled_numbers.iter().copied());
         scope
     }
 
     /// A scope over statements.
-    pub(crate) fn new(statements: &[(&'a Statement, u32)], owner: Option<(&'a Decl, Vec<i32>)>) -> Scope<'a> {
-        let draft = |(statement, section): &(&'a Statement, u32)| Draft {
+    pub(crate) fn new(statements: Vec<(&'a Statement, u32)>, owner: Option<(&'a Decl, Vec<i32>)>) -> Scope<'a> {
+        let draft = |(statement, section)| Draft {
             statement,
-            section: *section,
+            section,
             decl: None,
             number: 0,
             spoiled: false,
@@ -98,12 +133,11 @@ impl<'a> Scope<'a> {
             unit: None,
         };
         Scope {
-            drafts: statements.iter().map(draft).collect(),
+            drafts: statements.into_iter().map(draft).collect(),
             wires: Vec::new(),
-            by_name: FxHashMap::default(),
-            tags: FxHashMap::default(),
+            by_name: NameTable::default(),
             members: FxHashMap::default(),
-            by_number: FxHashMap::default(),
+            by_number: NumberTable::default(),
             cells: Vec::new(),
             spoiled: FxHashSet::default(),
             spoiled_numbers: FxHashSet::default(),
@@ -227,10 +261,12 @@ fn seal_unit(
     decls: &mut DeclTable,
     images: &mut ImageTable,
 ) -> Unit {
-    let names = identities(&scope);
+    let equals = equals(&scope);
     let cells = scope.cells;
-    let blocks = scope.drafts.into_iter().zip(names).filter_map(|(draft, name)| {
+    let wires = &scope.wires;
+    let blocks = scope.drafts.into_iter().enumerate().filter_map(|(index, draft)| {
         let decl = draft.decl?;
+        let name = identity(&draft, wires, equals.get(&index));
         let in_program = scope.owner.is_none();
         Some(Block {
             number: draft.number,
@@ -242,7 +278,7 @@ fn seal_unit(
             ports: draft.sources,
             params: draft.params,
             outputs: draft.outputs,
-            image: draft.image.map(|word| images.id(word)),
+            image: draft.image.map(|word| images.id(*word)),
             span: draft.statement.span,
         })
     });
@@ -263,24 +299,28 @@ fn seal_unit(
     }
 }
 
-/// The identity of each block: its first output's name or its number, numbered among equals.
-fn identities(scope: &Scope<'_>) -> Vec<String> {
-    let base = |draft: &Draft<'_>| {
-        let first = draft.outputs.first().map(|id| scope.wire(*id).name.as_str()).unwrap_or_default();
-        if first.is_empty() { draft.number.to_string() } else { first.to_owned() }
-    };
-    let mut names: Vec<String> = scope.drafts.iter().map(base).collect();
+/// The identity of a block: its first output's name or its number, and its place among equals.
+fn identity(draft: &Draft<'_>, wires: &[Wire], place: Option<&usize>) -> String {
+    let first = draft.outputs.first().map_or("", |id| wires[id.0 as usize].name.as_str());
+    match place {
+        _ if first.is_empty() => draft.number.to_string(),
+        Some(place) => format!("{first}#{place}"),
+        None => first.to_owned(),
+    }
+}
+
+/// The blocks that share the name of their first output: their places among equals, in order of number, from 1.
+fn equals(scope: &Scope<'_>) -> FxHashMap<usize, usize> {
+    let mut places = FxHashMap::default();
     for wire in scope.wires.iter().filter(|wire| wire.writers.len() > 1 && !wire.name.is_empty()) {
-        let mut named: Vec<usize> =
-            wire.writers.iter().filter(|writer| writer.output == 0).map(|writer| writer.block.0 as usize).collect();
-        named.sort_by_key(|block| scope.drafts[*block].number);
-        if named.len() > 1 {
-            for (i, block) in named.into_iter().enumerate() {
-                names[block] = format!("{}#{}", wire.name, i + 1);
-            }
+        let first_output = wire.writers.iter().filter(|writer| writer.output == 0);
+        let mut blocks: Vec<usize> = first_output.map(|writer| writer.block.0 as usize).collect();
+        blocks.sort_by_key(|block| scope.drafts[*block].number);
+        if blocks.len() > 1 {
+            places.extend(blocks.into_iter().enumerate().map(|(i, block)| (block, i + 1)));
         }
     }
-    names
+    places
 }
 
 /// Which blocks keep their parameters in RAM.

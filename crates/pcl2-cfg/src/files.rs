@@ -1,11 +1,8 @@
 //! Parameter files: which ones a source names, and the numbers in them.
 
 use pcl2_lang::ast::{Line, Number, Operand};
-use pcl2_lang::catalogue::Catalogue;
-use pcl2_lang::decl::TypeExpr;
 use pcl2_lang::lexer::{Lexer, SECTION_WORDS, Token};
 use pcl2_lang::source::Sources;
-use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax::{Tree, read_real};
 use pcl2_lang::types::Real;
 
@@ -18,18 +15,16 @@ pub enum FileText {
     Unusable(String),
 }
 
-/// The parameter files that a source names, each once, in order.
-pub fn wanted_files(tree: &Tree, sources: &Sources, symbols: &Symbols, catalogue: &Catalogue) -> Vec<String> {
+/// The strings that a source has for parameters, each once, in order: names of files, and perhaps plain texts.
+pub fn wanted_files(tree: &Tree, sources: &Sources) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for line in &tree.lines {
         let Line::Block(statement) = line else {
             continue;
         };
-        let decl = catalogue.find(symbols.text(statement.code.symbol));
-        let takes_text = decl.is_some_and(|decl| decl.params.iter().any(|param| param.ty == TypeExpr::Text));
         for place in statement.params() {
-            if let (Operand::Text(span), false) = (&place.value, takes_text) {
-                names.push(sources.text(*span).to_owned());
+            if let Operand::Text(span) = place.value {
+                names.push(sources.text(span).to_owned());
             }
         }
     }

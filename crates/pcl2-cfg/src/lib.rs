@@ -15,6 +15,7 @@ mod bind;
 mod composite;
 mod draft;
 mod files;
+mod inner;
 mod number;
 mod order;
 mod params;
@@ -88,8 +89,8 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     if diagnostic::enough(diagnostics) {
         return None;
     }
-    let sectioned = sections::read(input, diagnostics);
-    let mut scope = Scope::program(input, &sectioned);
+    let mut sectioned = sections::read(input, diagnostics);
+    let mut scope = Scope::program(input, std::mem::take(&mut sectioned.statements));
     let mut composites = composite::Composites::default();
     draft::complete(input, &mut scope, &mut composites, diagnostics);
     sections::check_contents(&sectioned, &scope, diagnostics);
@@ -97,5 +98,7 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
         return None;
     }
     let delays = order::delays(&sectioned, &scope, diagnostics);
-    Some(draft::seal(input, &sectioned, scope, composites, delays))
+    let program = draft::seal(input, &sectioned, scope, composites, delays);
+    inner::check_ranges(&program, diagnostics);
+    Some(program)
 }

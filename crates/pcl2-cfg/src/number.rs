@@ -5,7 +5,7 @@ use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
-use rustc_hash::FxHashMap;
+use rustc_hash::FxHashSet;
 
 /// The largest block number.
 pub(crate) const MAX_NUMBER: u32 = i32::MAX as u32;
@@ -76,24 +76,29 @@ pub(crate) fn output_names(decl: &Decl, sizes: &[i32]) -> Vec<String> {
 }
 
 fn check_overlap(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let mut taken: FxHashMap<u32, usize> = FxHashMap::default();
-    taken.reserve(scope.drafts.len());
-    for i in 0..scope.drafts.len() {
-        if diagnostic::enough(diagnostics) {
-            return;
-        }
-        let (first, count) = (scope.drafts[i].number, numbered_ports(&scope.drafts[i]).max(1));
-        for number in (first..=MAX_NUMBER).take(count as usize) {
-            let Some(other) = taken.insert(number, i) else {
-                continue;
-            };
-            let (draft, other) = (&scope.drafts[i], &scope.drafts[other]);
-            let place = |draft: &Draft<'_>| draft.statement.number.map_or(draft.statement.code.span, |(_, span)| span);
-            let message = format!("expected a free block number, found {number} a second time");
-            let label = if other.number == number { "the first block with it" } else { "an output of this block has it" };
-            let report = Diagnostic::new(codes::NUMBER_TAKEN, place(draft), message).label(place(other), label);
-            diagnostics.push(report.help("give one of them another number; a number is also the place in the order of execution"));
-            break;
+    let mut taken: Vec<(u32, u32)> = Vec::with_capacity(scope.drafts.len());
+    for (i, draft) in scope.drafts.iter().enumerate() {
+        let ports = numbered_ports(draft).max(1);
+        taken.extend((draft.number..=MAX_NUMBER).take(ports as usize).map(|number| (number, i as u32)));
+    }
+    taken.sort_unstable();
+    let mut reported: FxHashSet<u32> = FxHashSet::default();
+    let mut first = 0;
+    for i in 1..taken.len() {
+        if taken[i].0 != taken[first].0 {
+            first = i;
+        } else if reported.insert(taken[i].1) && !diagnostic::enough(diagnostics) {
+            let (draft, other) = (&scope.drafts[taken[i].1 as usize], &scope.drafts[taken[first].1 as usize]);
+            diagnostics.push(number_taken(draft, other, taken[i].0));
         }
     }
+}
+
+fn number_taken(draft: &Draft<'_>, other: &Draft<'_>, number: u32) -> Diagnostic {
+    let place = |draft: &Draft<'_>| draft.statement.number.map_or(draft.statement.code.span, |(_, span)| span);
+    let message = format!("expected a free block number, found {number} a second time");
+    let label = if other.number == number { "the first block with it" } else { "an output of this block has it" };
+    Diagnostic::new(codes::NUMBER_TAKEN, place(draft), message)
+        .label(place(other), label)
+        .help("give one of them another number; a number is also the place in the order of execution")
 }

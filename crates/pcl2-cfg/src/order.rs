@@ -135,14 +135,14 @@ impl FreeNumbers {
                 from = self.taken.end;
             }
             let start = from;
-            while scope.by_number.contains_key(&from) {
+            while scope.by_number.get(from).is_some() {
                 from += 1;
             }
             if from > start {
                 self.taken = start..from;
             }
             let row = from..=from.checked_add(count.max(1) - 1).filter(|end| *end <= MAX_NUMBER)?;
-            match row.into_iter().find(|number| scope.by_number.contains_key(number)) {
+            match row.into_iter().find(|number| scope.by_number.get(*number).is_some()) {
                 None => return Some(from),
                 Some(taken) => from = taken,
             }

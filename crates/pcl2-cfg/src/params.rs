@@ -42,7 +42,7 @@ pub(crate) fn read<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
     }
 }
 
-fn image_word(decl: &Decl, params: &[Param]) -> Option<ImageWord> {
+fn image_word(decl: &Decl, params: &[Param]) -> Option<Box<ImageWord>> {
     let image = decl.image?;
     let address = decl.params.iter().zip(params).filter(|(place, _)| place.fixed).map(|(_, param)| match param {
         Param::Value(Value::Int(value)) => *value,
@@ -51,7 +51,7 @@ fn image_word(decl: &Decl, params: &[Param]) -> Option<ImageWord> {
     let address: Vec<i32> = address.collect();
     let texts: Vec<String> = address.iter().map(i32::to_string).collect();
     let name = format!("{}({})", decl.name, texts.join(","));
-    Some(ImageWord { name, direction: image.direction, scalar: image.scalar, address, fail: None })
+    Some(Box::new(ImageWord { name, direction: image.direction, scalar: image.scalar, address, fail: None }))
 }
 
 struct Reader<'r, 'a> {
@@ -94,7 +94,9 @@ impl<'a> Reader<'_, 'a> {
             return None;
         }
         let total: usize = self.decl.params.iter().map(|param| self.elements(param)).sum();
-        let numbers = self.file(span, place.span, total, "the whole list")?;
+        let Some(numbers) = self.file(span, place.span, total, "the whole list") else {
+            return Some(self.decl.params.iter().map(|_| Param::Value(Value::Int(0))).collect());
+        };
         let mut numbers = numbers.into_iter();
         let params = &self.decl.params;
         let mut values = Vec::new();
@@ -144,6 +146,10 @@ impl<'a> Reader<'_, 'a> {
             next.next();
             return Some(own);
         }
+        if count == 1 && first.value != Operand::Empty {
+            next.next();
+            return self.single(param, first).map(Param::Value);
+        }
         let available = next.as_slice().len().min(count);
         let places: Vec<&Place> = next.take(available).collect();
         let empty = places.iter().all(|place| place.value == Operand::Empty);
@@ -155,6 +161,18 @@ impl<'a> Reader<'_, 'a> {
             return None;
         }
         self.values(param, &places)
+    }
+
+    /// The value of a place with one element.
+    fn single(&mut self, param: &ParamDecl, place: &Place) -> Option<Value> {
+        let number = self.number(param, place)?;
+        if !param.ty.is_scalar() {
+            return Some(self.convert(param, &[number], &|_| place.span));
+        }
+        Some(match scalar_of(param)? {
+            Scalar::Int => Value::Int(self.int_of(param, number, place.span)),
+            Scalar::Real => Value::Real(self.real_of(param, number, place.span)),
+        })
     }
 
     fn too_few(&mut self, index: usize) {
@@ -392,7 +410,8 @@ impl<'a> Reader<'_, 'a> {
     }
 
     fn check_ranges(&mut self, params: &[Param]) {
-        if params.iter().any(|param| matches!(param, Param::Own(_))) {
+        let has_range = |param: &ParamDecl| param.tail.bounds.is_some() || !param.tail.names.is_empty();
+        if !self.decl.params.iter().any(has_range) || params.iter().any(|param| matches!(param, Param::Own(_))) {
             return;
         }
         let values: Vec<Value> = params.iter().filter_map(pcl2_lang::model::value).cloned().collect();

@@ -20,7 +20,8 @@ pub(crate) fn connect<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics:
     for i in writing_order(input, scope) {
         outputs(input, scope, i, diagnostics);
     }
-    for wire in &mut scope.wires {
+    scope.by_number.sort();
+    for wire in scope.wires.iter_mut().filter(|wire| wire.writers.len() > 1) {
         wire.writers.sort_by_key(|writer| writer.block);
     }
     for i in 0..scope.drafts.len() {
@@ -97,10 +98,10 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
         [Output::Name(name)] => Some(*name),
         _ => None,
     };
-    if let Some(tag) = tag {
-        scope.tags.entry(tag.symbol).or_insert(BlockId(index as u32));
-    }
-    let mut number = scope.drafts[index].number;
+    let block = BlockId(index as u32);
+    let number = scope.drafts[index].number;
+    let mut ports = 0;
+    let mut outputs = Vec::with_capacity(count);
     for o in 0..count {
         let port = names.get(o).map_or("", String::as_str);
         let id = match (statement.outputs.get(o), tag) {
@@ -108,21 +109,24 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
             (None, Some(tag)) => member(input, scope, tag, port),
             (Some(Output::Discard(span)), _) => push_wire(scope, String::new(), *span),
             (None, None) if statement.outputs.is_empty() && port != RETURN_PORT => {
-                let id = push_wire(scope, number.to_string(), statement.code.span);
-                scope.by_number.insert(number, (BlockId(index as u32), o as u32));
-                number = number.saturating_add(1);
-                id
+                let number = number.saturating_add(ports);
+                ports += 1;
+                scope.by_number.push(number, block, o as u32);
+                push_wire(scope, number.to_string(), statement.code.span)
             }
             (None, None) => push_wire(scope, String::new(), statement.code.span),
         };
         let inout = declared_inout(decl, &sizes, o);
         let wire = &mut scope.wires[id.0 as usize];
         wire.spoiled |= scope.drafts[index].spoiled;
-        wire.writers.push(Writer { block: BlockId(index as u32), output: o as u32, inout });
-        scope.drafts[index].outputs.push(id);
+        wire.writers.reserve_exact(1.max(wire.writers.len()));
+        wire.writers.push(Writer { block, output: o as u32, inout });
+        outputs.push(id);
     }
-    let number = scope.drafts[index].number;
-    scope.by_number.entry(number).or_insert((BlockId(index as u32), 0));
+    scope.drafts[index].outputs = outputs;
+    if ports == 0 {
+        scope.by_number.push(number, block, 0);
+    }
 }
 
 fn declared_inout(decl: &Decl, sizes: &[i32], expanded: usize) -> bool {
@@ -146,8 +150,8 @@ fn spoil_names(scope: &mut Scope<'_>, index: usize) {
 }
 
 fn named(input: &Input<'_>, scope: &mut Scope<'_>, name: Name) -> SignalId {
-    if let Some(id) = scope.by_name.get(&name.symbol) {
-        return *id;
+    if let Some(id) = scope.by_name.get(name.symbol) {
+        return id;
     }
     let id = push_wire(scope, input.symbols.text(name.symbol).to_owned(), name.span);
     scope.by_name.insert(name.symbol, id);
@@ -255,8 +259,8 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn name(&mut self, port: &PortDecl, name: Name) -> Option<Source> {
-        if let Some(id) = self.scope.by_name.get(&name.symbol) {
-            return Some(Source::Signal(*id));
+        if let Some(id) = self.scope.by_name.get(name.symbol) {
+            return Some(Source::Signal(id));
         }
         let text = self.input.symbols.text(name.symbol);
         if let Some(value) = port.tail.names.iter().position(|known| known == text) {
@@ -286,7 +290,7 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn element(&mut self, name: Name, indexes: &[(i32, Span)]) -> Option<Source> {
-        let Some(id) = self.scope.by_name.get(&name.symbol).copied() else {
+        let Some(id) = self.scope.by_name.get(name.symbol) else {
             self.unknown_variable(name, &[]);
             return None;
         };
@@ -299,9 +303,16 @@ impl<'a> Wirer<'_, 'a> {
         Some(Source::Element(id, 0))
     }
 
+    /// The first block that has this name alone for all its outputs.
+    fn tag(&self, tag: Name) -> Option<BlockId> {
+        let writers = &self.scope.wire(self.scope.by_name.get(tag.symbol)?).writers;
+        let alone = |block: BlockId| self.scope.drafts[block.0 as usize].statement.outputs.len() == 1;
+        writers.iter().map(|writer| writer.block).find(|block| alone(*block))
+    }
+
     fn member(&mut self, tag: Name, member: Name) -> Option<Source> {
-        let Some(block) = self.scope.tags.get(&tag.symbol).copied() else {
-            if self.scope.by_name.contains_key(&tag.symbol) {
+        let Some(block) = self.tag(tag) else {
+            if self.scope.by_name.get(tag.symbol).is_some() {
                 let text = self.input.symbols.text(tag.symbol);
                 let message = format!("expected the tag of a block, found `{text}`, one of several names");
                 let report = Diagnostic::new(codes::UNKNOWN_MEMBER, tag.span, message);
@@ -331,11 +342,11 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn number(&mut self, port: &PortDecl, number: i32, span: Span) -> Option<Source> {
-        let found = u32::try_from(number).ok().and_then(|number| self.scope.by_number.get(&number).copied());
+        let found = u32::try_from(number).ok().and_then(|number| self.scope.by_number.get(number));
         let Some((block, output)) = found else {
             // A block of which nothing is known may have several outputs.
             let near = |number: u32| (number.saturating_sub(UNKNOWN_PORTS)..=number).rev();
-            let known = |number: &u32| self.scope.by_number.contains_key(number);
+            let known = |number: &u32| self.scope.by_number.get(*number).is_some();
             let spoiled = u32::try_from(number).is_ok_and(|number| {
                 near(number).take_while(|n| !known(n)).any(|n| self.scope.spoiled_numbers.contains(&n))
             });

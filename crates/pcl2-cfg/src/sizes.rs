@@ -457,7 +457,7 @@ fn check_written<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut
         return;
     };
     for name in crate::number::output_names(decl, &sizes) {
-        let id = input.symbols.find(&name).and_then(|symbol| scope.by_name.get(&symbol)).copied();
+        let id = input.symbols.find(&name).and_then(|symbol| scope.by_name.get(symbol));
         let Some(id) = id.filter(|id| !scope.wire(*id).writers.is_empty() || scope.wire(*id).spoiled) else {
             let message = format!("expected a statement that writes the output `{name}` of {}, found none", decl.name);
             diagnostics.push(Diagnostic::new(codes::BAD_DECLARATION, decl.span, message));

@@ -248,7 +248,7 @@ impl Loader {
         let tree = syntax::parse(&self.sources, file, &mut self.symbols, &mut self.diagnostics);
         self.timings.push(("parse", clock.elapsed()));
         let lines = self.sources.file(file).lines();
-        let files = parameter_files(&wanted_files(&tree, &self.sources, &self.symbols, catalogue), &place.root);
+        let files = parameter_files(&wanted_files(&tree, &self.sources), &place.root);
         let options = Options {
             name: place.config.name.clone().unwrap_or_else(|| place.stem.clone()),
             period,

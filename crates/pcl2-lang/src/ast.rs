@@ -28,17 +28,40 @@ pub struct Statement {
     /// The block number, if written.
     pub number: Option<(u32, Span)>,
     /// The outputs.
-    pub outputs: Vec<Output>,
+    pub outputs: Box<[Output]>,
     /// The function code.
     pub code: Name,
-    /// The input list. An empty list has one empty item.
-    pub inputs: Vec<Item>,
-    /// The parameter list. An empty list has one empty item.
-    pub params: Vec<Item>,
+    /// The input list, then the parameter list.
+    items: Box<[Item]>,
+    /// How many items are inputs.
+    inputs: u32,
     /// Where the `:` stands, or `)` if there is none.
     pub colon: Span,
     /// From the first token to the closing parenthesis.
     pub span: Span,
+}
+
+impl Statement {
+    /// A statement whose first `inputs` items are the input list.
+    pub(crate) fn new(
+        number: Option<(u32, Span)>,
+        outputs: Box<[Output]>,
+        code: Name,
+        (items, inputs): (Box<[Item]>, u32),
+        (colon, span): (Span, Span),
+    ) -> Statement {
+        Statement { number, outputs, code, items, inputs, colon, span }
+    }
+
+    /// The input list. An empty list has one empty item.
+    pub fn inputs(&self) -> &[Item] {
+        &self.items[..self.inputs as usize]
+    }
+
+    /// The parameter list. An empty list has one empty item.
+    pub fn params(&self) -> &[Item] {
+        &self.items[self.inputs as usize..]
+    }
 }
 
 /// One output.
@@ -63,12 +86,19 @@ impl Output {
 /// One place of an input or parameter list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
-    /// `K = ..`
-    pub label: Option<Name>,
+    /// `K = ..`; boxed, as most items have none.
+    pub(crate) label: Option<Box<Name>>,
     /// What is in it.
     pub value: Operand,
     /// The place of the value; for an empty one, where the comma, colon or parenthesis after it stands.
     pub span: Span,
+}
+
+impl Item {
+    /// `K = ..`
+    pub fn label(&self) -> Option<Name> {
+        self.label.as_deref().copied()
+    }
 }
 
 /// What stands in a place.
@@ -79,9 +109,9 @@ pub enum Operand {
     /// A variable, an enumeration's name, a constant of a composite.
     Name(Name),
     /// `a[1]`, `m[1,2]`
-    Element(Name, Vec<(i32, Span)>),
+    Element(Box<(Name, Vec<(i32, Span)>)>),
     /// `TAG.output`
-    Member(Name, Name),
+    Member(Box<(Name, Name)>),
     /// A number.
     Number(Number),
     /// A string: a parameter file or a text.
@@ -98,7 +128,7 @@ pub enum Line {
     /// `PLANT`
     Plant(Span),
     /// `CONTROL [n [offset]]`
-    Control(Span, Vec<(u32, Span)>),
+    Control(Span, Box<Vec<(u32, Span)>>),
     /// A section word whose line is not understood; what stands wrong there was reported.
     UnknownSection(Span),
     /// `END`

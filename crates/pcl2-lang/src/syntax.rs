@@ -1,7 +1,7 @@
 //! Tokens -> statements: lines are cut, missing parentheses found, then each line is parsed by itself,
 //! so that one mistake never hides the next.
 
-use crate::ast::{Line, Name, Number, Operand, Output, Statement};
+use crate::ast::{Item, Line, Name, Number, Operand, Output, Statement};
 use crate::codes;
 use crate::declare::raw::Expr;
 use crate::diagnostic::{self, Diagnostic};
@@ -45,6 +45,8 @@ pub struct Context<'a> {
     file: FileId,
     symbols: &'a mut Symbols,
     diagnostics: &'a mut Vec<Diagnostic>,
+    outputs: Vec<Output>,
+    items: Vec<Item>,
     too_deep: bool,
 }
 
@@ -78,6 +80,7 @@ pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics
             Ok(line) => tree.lines.push(line),
             Err(error) => {
                 context.report(error, &lines.tokens);
+                context.forget();
                 context.spoil(&lines.tokens, &mut tree);
             }
         }
@@ -125,6 +128,7 @@ pub(crate) fn parse_body_line(context: &mut Context<'_>, lines: &Lines<'_>) -> O
     match cfg::CfgLineParser::new().parse(context, lines.tokens()) {
         Ok(line) => Some(line),
         Err(error) => {
+            context.forget();
             context.report(error, &lines.tokens);
             None
         }
@@ -339,7 +343,7 @@ impl<'a> Context<'a> {
         symbols: &'a mut Symbols,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Context<'a> {
-        Context { text: &source.text, file, symbols, diagnostics, too_deep: false }
+        Context { text: &source.text, file, symbols, diagnostics, outputs: Vec::new(), items: Vec::new(), too_deep: false }
     }
 
     pub(crate) fn diagnostics(&mut self) -> &mut Vec<Diagnostic> {
@@ -364,12 +368,18 @@ impl<'a> Context<'a> {
         &mut self,
         start: u32,
         number: Option<(u32, Span)>,
-        outputs: Vec<Output>,
-        call: (Name, Vec<crate::ast::Item>, Span, Vec<crate::ast::Item>),
+        (code, (colon, inputs)): (Name, (Span, u32)),
         end: u32,
-    ) -> Statement {
-        let (code, inputs, colon, params) = call;
-        Statement { number, outputs, code, inputs, params, colon, span: self.span(start, end) }
+    ) -> Box<Statement> {
+        let outputs = self.outputs.drain(..).collect();
+        let items = self.items.drain(..).collect();
+        Box::new(Statement::new(number, outputs, code, (items, inputs), (colon, self.span(start, end))))
+    }
+
+    /// Drops what a line that is no statement has left.
+    fn forget(&mut self) {
+        self.outputs.clear();
+        self.items.clear();
     }
 
     fn name(&mut self, start: u32, end: u32) -> Name {

@@ -465,8 +465,8 @@ fn bad(context: &mut Context<'_>, decl: &mut Decl, name: Name) {
 
 fn signal_name(context: &Context<'_>, signal: &Operand) -> String {
     match signal {
-        Operand::Member(tag, member) => {
-            format!("{}.{}", context.symbol_text(tag.symbol), context.symbol_text(member.symbol))
+        Operand::Member(member) => {
+            format!("{}.{}", context.symbol_text(member.0.symbol), context.symbol_text(member.1.symbol))
         }
         Operand::Name(name) => context.symbol_text(name.symbol).to_owned(),
         Operand::Empty | Operand::Element(..) | Operand::Number(_) | Operand::Text(_) => String::new(),
