@@ -22,18 +22,23 @@ enum {
     PCL2_STATE     /* the block that keeps it */
 };
 
+/* What points of one declared place have in common. */
+struct pcl2_kind {
+    const char *unit;  /* "" where none is declared */
+    pcl2_real low;     /* declared range; what depends on other parameters counts as open */
+    pcl2_real high;
+    uint32_t rows;     /* 1 for a number; a vector has one column; 0: without elements */
+    uint32_t columns;
+    uint8_t type;      /* PCL2_REAL .. */
+    uint8_t access;    /* PCL2_SIGNAL .. */
+    uint8_t retain;    /* 1: kept over power loss */
+};
+
 /* One point. Elements stand row by row from offset on. */
 struct pcl2_point {
     const char *name;
-    const char *unit;  /* "" where none is declared */
     uint32_t offset;   /* bytes from the start of the instance */
-    uint32_t rows;     /* 1 for a number; a vector has one column; 0: without elements */
-    uint32_t columns;
-    pcl2_real low;     /* declared range; what depends on other parameters counts as open */
-    pcl2_real high;
-    uint8_t type;
-    uint8_t access;
-    uint8_t retain;    /* 1: kept over power loss */
+    uint32_t kind;     /* index in the map's kinds */
 };
 
 struct pcl2_map {
@@ -43,7 +48,14 @@ struct pcl2_map {
     uint32_t size;                   /* of the instance, bytes */
     int32_t count;                   /* of points */
     const struct pcl2_point *points;
+    const struct pcl2_kind *kinds;
 };
+
+/* What a point of the map is. */
+static inline const struct pcl2_kind *pcl2_kind_of(const struct pcl2_map *map, int32_t point)
+{
+    return &map->kinds[map->points[point].kind];
+}
 
 /* A new value for one element of a parameter or operator cell. */
 struct pcl2_set {

@@ -2,26 +2,23 @@
 
 use crate::context::Context;
 use crate::layout::Crossing;
-use crate::tags;
-use crate::text::{Number, number};
-use pcl2_lang::decl::{Direction, Expr};
-use pcl2_lang::model::{Place, Point};
+use crate::points::{ARRAYS, Points};
+use pcl2_lang::decl::Direction;
 use pcl2_lang::program::{BlockId, SectionKind};
-use pcl2_lang::types::{Real, Scalar, Value, Width};
+use pcl2_lang::types::{Scalar, Width};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
 use std::io;
 
 /// Writes the file.
-pub(crate) fn json(cx: &Context<'_>, points: &[Point], layout_hash: u64) -> String {
+pub(crate) fn json(cx: &Context<'_>, points: &Points) -> String {
     let program = cx.program;
-    let of = |wanted: fn(&Place) -> bool| Points { cx, points, wanted };
     let model = Model {
         name: &cx.name,
         real: if program.width == Width::F32 { "f32" } else { "f64" },
         period_ns: program.period,
         substeps: program.substeps,
-        layout: format!("{layout_hash:016x}"),
+        layout: format!("{:016x}", points.hash),
         size: cx.layout.extent.padded(),
         sections: sections(cx),
         blocks: Blocks(cx),
@@ -29,19 +26,32 @@ pub(crate) fn json(cx: &Context<'_>, points: &[Point], layout_hash: u64) -> Stri
         inputs: crossings(cx, true),
         outputs: crossings(cx, false),
         images: images(cx),
-        signals: of(|place| matches!(place, Place::Signal(_))),
-        parameters: of(|place| matches!(place, Place::Param(..))),
-        cells: of(|place| matches!(place, Place::Cell(_))),
-        words: of(|place| matches!(place, Place::Image(_))),
-        memory: of(|place| matches!(place, Place::Memory(_))),
     };
-    let mut bytes = Vec::with_capacity(points.len() * 128);
+    let mut bytes = Vec::with_capacity(points.arrays.iter().map(String::len).sum::<usize>() + 4096);
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Lines { depth: 0 });
     if model.serialize(&mut serializer).is_err() {
         bytes.clear();
     }
-    bytes.push(b'\n');
-    String::from_utf8(bytes).unwrap_or_default()
+    let mut out = String::from_utf8(bytes).unwrap_or_default();
+    append(&mut out, points);
+    out
+}
+
+/// Puts the points behind the last key of the object.
+fn append(out: &mut String, points: &Points) {
+    out.truncate(out.trim_end_matches(['\n', '}']).len());
+    let kinds: Vec<&str> = points.kinds.iter().map(|kind| kind.json.as_str()).collect();
+    let close = |rows: bool| if rows { "\n  ]" } else { "]" };
+    out.push_str(",\n  \"kinds\": [");
+    for (i, kind) in kinds.iter().enumerate() {
+        out.push_str(if i == 0 { "\n    " } else { ",\n    " });
+        out.push_str(kind);
+    }
+    out.push_str(close(!kinds.is_empty()));
+    for (name, rows) in ARRAYS.iter().zip(&points.arrays) {
+        out.extend([",\n  \"", name, "\": [", rows, close(!rows.is_empty())]);
+    }
+    out.push_str("\n}\n");
 }
 
 #[derive(Serialize)]
@@ -58,11 +68,6 @@ struct Model<'c> {
     inputs: Vec<CrossingRow<'c>>,
     outputs: Vec<CrossingRow<'c>>,
     images: Vec<ImageRow<'c>>,
-    signals: Points<'c>,
-    parameters: Points<'c>,
-    cells: Points<'c>,
-    words: Points<'c>,
-    memory: Points<'c>,
 }
 
 #[derive(Serialize)]
@@ -178,162 +183,6 @@ fn images<'c>(cx: &'c Context<'_>) -> Vec<ImageRow<'c>> {
         address: &image.address,
     };
     cx.program.images.iter().map(row).collect()
-}
-
-struct Points<'c> {
-    cx: &'c Context<'c>,
-    points: &'c [Point],
-    wanted: fn(&Place) -> bool,
-}
-
-#[derive(Serialize)]
-struct PointRow<'c> {
-    name: &'c str,
-    index: usize,
-    r#type: String,
-    access: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unit: Option<&'c str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    range: Option<RangeRow>,
-    #[serde(skip_serializing_if = "<[String]>::is_empty")]
-    names: &'c [String],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    default: Option<Default<'c>>,
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    retain: bool,
-}
-
-#[derive(Serialize)]
-struct RangeRow {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    from: Option<Limit>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    above: Option<Limit>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    to: Option<Limit>,
-}
-
-/// A bound: a number, or a text where it depends on other parameters.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Limit {
-    Number(f64),
-    Text(String),
-}
-
-impl Serialize for Points<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let points = self.points.iter().enumerate().filter(|(_, point)| (self.wanted)(&point.place));
-        serializer.collect_seq(points.map(|(index, point)| row(self.cx, index, point)))
-    }
-}
-
-fn row<'c>(cx: &'c Context<'_>, index: usize, point: &'c Point) -> PointRow<'c> {
-    let tag = tags::tag(cx, point);
-    PointRow {
-        name: &point.name,
-        index,
-        r#type: if point.time { "time".to_owned() } else { point.ty.to_string() },
-        access: access(point),
-        unit: point.unit.as_deref(),
-        range: range(cx, point, &tag),
-        names: &point.names,
-        default: default(cx, point),
-        retain: tag.retain,
-    }
-}
-
-fn access(point: &Point) -> &'static str {
-    use pcl2_lang::model::Access;
-    match point.access {
-        Access::Signal => "signal",
-        Access::Input => "input",
-        Access::Image => "image",
-        Access::Tunable => "tunable",
-        Access::Operator => "operator",
-        Access::State => "state",
-    }
-}
-
-fn range(cx: &Context<'_>, point: &Point, tag: &tags::Tag<'_>) -> Option<RangeRow> {
-    let bounds = tag.tail?.bounds.as_ref()?;
-    let (low, high) = tags::range(tag);
-    let limit = |bound: &Option<Expr>, number: Option<f64>| {
-        bound.as_ref().map(|bound| match number.filter(|number| number.is_finite()) {
-            Some(number) => Limit::Number(number),
-            None => Limit::Text(spelled(cx, point, bound)),
-        })
-    };
-    let lower = limit(&bounds.lower, low);
-    let (from, above) = if bounds.above { (None, lower) } else { (lower, None) };
-    Some(RangeRow { from, above, to: limit(&bounds.upper, high) })
-}
-
-/// A bound as it is declared.
-fn spelled(cx: &Context<'_>, point: &Point, expr: &Expr) -> String {
-    let both = |a: &Expr, sign: &str, b: &Expr| format!("({} {sign} {})", spelled(cx, point, a), spelled(cx, point, b));
-    match expr {
-        Expr::Int(value) => value.to_string(),
-        Expr::Real(value) => format!("{:?}", value.wide),
-        Expr::Size(_) => String::new(),
-        Expr::Param(index) => match point.place {
-            Place::Param(block, _) => {
-                let block = cx.program.main().block(block);
-                cx.code(block.decl).decl.params.get(*index).map(|param| param.name.clone()).unwrap_or_default()
-            }
-            Place::Signal(_) | Place::Cell(_) | Place::Image(_) | Place::Memory(_) => String::new(),
-        },
-        Expr::Negate(a) => format!("-{}", spelled(cx, point, a)),
-        Expr::Add(a, b) => both(a, "+", b),
-        Expr::Subtract(a, b) => both(a, "-", b),
-        Expr::Multiply(a, b) => both(a, "*", b),
-        Expr::Divide(a, b) => both(a, "/", b),
-    }
-}
-
-fn default<'c>(cx: &'c Context<'_>, point: &Point) -> Option<Default<'c>> {
-    let main = cx.program.main();
-    let value = match point.place {
-        Place::Param(block, param) => crate::layout::known_value(&main.block(block).params[param as usize])?,
-        Place::Cell(cell) => &main.cells[cell.0 as usize].initial,
-        Place::Signal(_) | Place::Image(_) | Place::Memory(_) => return None,
-    };
-    let count = (!point.ty.is_scalar()).then_some(point.ty.elements());
-    Some(Default { value, count, scalar: point.ty.scalar, width: cx.program.width })
-}
-
-struct Default<'c> {
-    value: &'c Value,
-    count: Option<usize>,
-    scalar: Scalar,
-    width: Width,
-}
-
-impl Serialize for Default<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let element = |i: usize| Element(number(self.value, i), self.scalar, self.width);
-        match self.count {
-            None => element(0).serialize(serializer),
-            Some(count) => serializer.collect_seq((0..count).map(element)),
-        }
-    }
-}
-
-struct Element(Number, Scalar, Width);
-
-impl Serialize for Element {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let real = match (self.0, self.1) {
-            (Number::Int(value), Scalar::Int) => return serializer.serialize_i32(value),
-            (Number::Int(value), Scalar::Real) => Real::from_int(value),
-            (Number::Real(value), _) => value,
-        };
-        match self.2 {
-            Width::F64 => serializer.serialize_f64(real.wide),
-            Width::F32 => serializer.serialize_f32(real.narrow),
-        }
-    }
 }
 
 /// One line for each key, and for each element of an array behind it.

@@ -20,6 +20,7 @@ mod json;
 mod layout;
 mod map;
 mod names;
+mod points;
 mod rows;
 pub mod runner;
 mod runtime;
@@ -28,7 +29,6 @@ mod size;
 mod source;
 mod statics;
 mod step;
-mod tags;
 mod text;
 mod tune;
 
@@ -41,7 +41,6 @@ pub use runtime::files as runtime_files;
 
 use context::Context;
 use pcl2_lang::decl::Decl;
-use pcl2_lang::model;
 use pcl2_lang::source::Sources;
 use pcl2_lang::verify::Verified;
 
@@ -97,16 +96,17 @@ pub fn emit_each(
 ) -> Emitted {
     let program = verified.program();
     let cx = Context::new(program, sources);
-    let points = model::points(program);
-    let hash = map::layout_hash(&cx, &points);
     let name = cx.name.clone();
-    take(format!("{name}.h"), header::header(&cx, hash));
+    let mut points = points::points(&cx);
+    take(format!("{name}_map.c"), map::map(&cx, &points));
+    points.rows = String::new();
+    take(format!("{name}.json"), json::json(&cx, &points));
+    points.arrays = Default::default();
+    take(format!("{name}.h"), header::header(&cx, points.hash));
     let points_of_plant = io::io(&cx);
     let runtime = runtime::collect(&cx, &options.known, &options.user_files, points_of_plant.is_some());
     let (text, included) = source::source(&cx, &points, &|path| runtime.files.contains_key(path));
     take(format!("{name}.c"), text);
-    take(format!("{name}_map.c"), map::map(&cx, &points, hash));
-    take(format!("{name}.json"), json::json(&cx, &points, hash));
     take(format!("{name}_example.c"), example::example(&cx));
     let folders = runtime.folders();
     let mut c_files = vec![format!("{name}.c"), format!("{name}_map.c")];
@@ -116,7 +116,7 @@ pub fn emit_each(
     }
     take("Makefile".to_owned(), example::makefile(&name, &folders, &c_files));
     let sizes =
-        Sizes { instance: cx.layout.extent.padded(), blocks: program.main().blocks.len(), points: points.len() };
+        Sizes { instance: cx.layout.extent.padded(), blocks: program.main().blocks.len(), points: points.count };
     for (path, text) in runtime.files {
         take(path, text);
     }

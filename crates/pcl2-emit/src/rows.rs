@@ -12,7 +12,6 @@ use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::decl::TypeExpr;
 use pcl2_lang::kernel::{self, Entry};
-use pcl2_lang::model::{Place, Point};
 use pcl2_lang::program::{Block, BlockId, CellId, Param, UnitId};
 use pcl2_lang::types::{Scalar, Type};
 use rustc_hash::FxHashMap;
@@ -42,10 +41,9 @@ impl Rows {
     }
 }
 
-/// Builds the table. `points` are those of the map, in its order.
-pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, points: &[Point], kernels: &[Facts]) -> Rows {
+/// Builds the table. `next` is the index in the map of the first parameter.
+pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, mut next: usize, kernels: &[Facts]) -> Rows {
     let mut builder = Builder { cx, kernels, variants: FxHashMap::default(), rows: Rows::default(), table: String::new() };
-    let mut next = points.iter().position(|point| matches!(point.place, Place::Param(..))).unwrap_or(points.len());
     for (section, id) in blocks_by_section(cx) {
         let period = cx.program.period.map(|scan| cx.program.sections[section].period(scan, cx.program.substeps));
         let places = tunable_places(cx, id);

@@ -27,9 +27,9 @@ static void pcl2_run_put(uint64_t word)
 
 static char *pcl2_run_place(int32_t point, int32_t element)
 {
-    const struct pcl2_point *p = &@NAME@_map.points[point];
-    const size_t size = p->type == PCL2_REAL ? sizeof(pcl2_real) : p->type == PCL2_INT ? sizeof(int32_t) : sizeof(int64_t);
-    return (char *)&pcl2_run_self + p->offset + size * (size_t)element;
+    const uint8_t type = pcl2_kind_of(&@NAME@_map, point)->type;
+    const size_t size = type == PCL2_REAL ? sizeof(pcl2_real) : type == PCL2_INT ? sizeof(int32_t) : sizeof(int64_t);
+    return (char *)&pcl2_run_self + @NAME@_map.points[point].offset + size * (size_t)element;
 }
 
 static int32_t pcl2_run_point(uint64_t place)
@@ -45,7 +45,7 @@ static int32_t pcl2_run_element(uint64_t place)
 static uint64_t pcl2_run_get(uint64_t place)
 {
     const char *const at = pcl2_run_place(pcl2_run_point(place), pcl2_run_element(place));
-    const uint8_t type = @NAME@_map.points[pcl2_run_point(place)].type;
+    const uint8_t type = pcl2_kind_of(&@NAME@_map, pcl2_run_point(place))->type;
     int32_t whole;
     int64_t time;
     pcl2_bits real;
@@ -65,7 +65,7 @@ static uint64_t pcl2_run_get(uint64_t place)
 static int32_t pcl2_run_take(const uint64_t *event, struct pcl2_set *set)
 {
     const int32_t point = pcl2_run_point(event[1]);
-    const struct pcl2_point *const p = &@NAME@_map.points[point];
+    const struct pcl2_kind *const p = pcl2_kind_of(&@NAME@_map, point);
     const pcl2_bits real = (pcl2_bits)event[2];
     const int32_t whole = (int32_t)(uint32_t)event[2];
     if (p->access == PCL2_TUNABLE || p->access == PCL2_OPERATOR) {

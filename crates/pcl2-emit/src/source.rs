@@ -6,25 +6,25 @@ use crate::facts;
 use crate::image;
 use crate::init;
 use crate::layout::{self, PART};
+use crate::points::Points;
 use crate::rows;
 use crate::runtime;
 use crate::statics::Statics;
 use crate::step;
 use crate::tune;
 use pcl2_lang::decl::Decl;
-use pcl2_lang::model::Point;
 use pcl2_lang::program::UnitId;
 use std::fmt::Write;
 
 /// Writes the file. The second result lists the runtime's C files that it includes.
-pub(crate) fn source(cx: &Context<'_>, points: &[Point], has_file: &dyn Fn(&str) -> bool) -> (String, Vec<String>) {
+pub(crate) fn source(cx: &Context<'_>, points: &Points, has_file: &dyn Fn(&str) -> bool) -> (String, Vec<String>) {
     let mut statics = Statics::new(&cx.name, &cx.layout.tags);
     let mut body = String::new();
     for unit in layout::bodies(&cx.layout) {
         bodies::functions(&mut body, cx, &mut statics, unit);
     }
     let kernels: Vec<facts::Facts> = cx.codes.iter().map(facts::of_kernel).collect();
-    let table = rows::rows(cx, &mut statics, points, &kernels);
+    let table = rows::rows(cx, &mut statics, points.first_parameter, &kernels);
     body.push_str(&table.text);
     let offset = offset_type(cx, points);
     step::status_table(&mut body, cx, offset);
@@ -40,8 +40,8 @@ pub(crate) fn source(cx: &Context<'_>, points: &[Point], has_file: &dyn Fn(&str)
 }
 
 /// The smallest type that holds every offset and every index of the map.
-fn offset_type(cx: &Context<'_>, points: &[Point]) -> &'static str {
-    let largest = cx.layout.extent.padded().max(points.len() as u64 + 1);
+fn offset_type(cx: &Context<'_>, points: &Points) -> &'static str {
+    let largest = cx.layout.extent.padded().max(points.count as u64 + 1);
     if largest < 1 << 16 { "uint16_t" } else { "uint32_t" }
 }
 

@@ -75,9 +75,30 @@ pub(crate) fn elements(out: &mut String, value: &Value, count: usize, scalar: Sc
     }
 }
 
+/// A number of something, without the formatting machinery.
+pub(crate) fn count(out: &mut String, value: usize) {
+    let mut digits = [0_u8; 20];
+    let mut first = digits.len();
+    let mut rest = value;
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    out.extend(digits[first..].iter().map(|digit| char::from(*digit)));
+}
+
 /// A string literal.
 pub(crate) fn string(out: &mut String, text: &str) {
     out.push('"');
+    if text.bytes().all(|byte| matches!(byte, b' '..=b'~') && !matches!(byte, b'"' | b'\\' | b'?')) {
+        out.push_str(text);
+        out.push('"');
+        return;
+    }
     for byte in text.bytes() {
         match byte {
             b'"' | b'\\' | b'?' => {

@@ -1,8 +1,8 @@
 //! The points of a program that have a name outside: what maps, monitors, stimulus and saved states speak of.
 
-use crate::decl::Direction;
+use crate::decl::{Decl, Direction, PortDecl, Tail, TypeExpr};
 use crate::kernel;
-use crate::program::{BlockId, CellId, ImageId, Param, Program, Role, SignalId, UnitId};
+use crate::program::{Block, BlockId, CellId, DeclId, ImageId, Param, Program, Role, SignalId, UnitId};
 use crate::types::{Scalar, Type, Value};
 use rustc_hash::FxHashMap;
 
@@ -62,12 +62,50 @@ pub struct Point {
 /// All points of a program, in a fixed order: signals, image, parameters, cells, memory.
 pub fn points(program: &Program) -> Vec<Point> {
     let mut points = Vec::new();
-    signals(program, &mut points);
-    images(program, &mut points);
-    parameters(program, &mut points);
-    cells(program, &mut points);
-    memory(program, UnitId(0), &mut Vec::new(), "", &mut points);
+    visit(program, &mut |seen| {
+        let tail = seen.tail.cloned().unwrap_or_default();
+        points.push(Point {
+            name: seen.name.to_owned(),
+            place: seen.place,
+            path: seen.path.to_vec(),
+            ty: seen.ty,
+            time: seen.time,
+            access: seen.access,
+            unit: tail.unit,
+            names: tail.names,
+        });
+    });
     points
+}
+
+/// A point on the way past it: as [`Point`], borrowed.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'s> {
+    /// As [`Point::name`].
+    pub name: &'s str,
+    /// What it is.
+    pub place: Place,
+    /// As [`Point::path`].
+    pub path: &'s [BlockId],
+    /// Its type; times count as one int64.
+    pub ty: Type,
+    /// Nanoseconds in an `int64_t`.
+    pub time: bool,
+    /// Who writes it.
+    pub access: Access,
+    /// Unit, range and names, where a declaration gives them.
+    pub tail: Option<&'s Tail>,
+    /// The declaration behind it, and the values of its sizes.
+    pub declared: Option<(DeclId, &'s [i32])>,
+}
+
+/// Shows all points in the order of [`points`], for programs with too many to keep.
+pub fn visit(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
+    signals(program, see);
+    images(program, see);
+    parameters(program, see);
+    cells(program, see);
+    memory(program, UnitId(0), &mut Vec::new(), &mut String::new(), see);
 }
 
 /// Finds points by name: by their own, a block's number (`4.value`), or a written variable
@@ -117,28 +155,24 @@ fn aliases_of(program: &Program, point: &Point) -> Vec<String> {
     aliases
 }
 
-fn signals(program: &Program, points: &mut Vec<Point>) {
-    for (i, signal) in program.main().signals.iter().enumerate() {
-        if signal.name.is_empty() {
-            continue;
-        }
+fn signals(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
+    for (i, signal) in program.main().signals.iter().enumerate().filter(|(_, signal)| !signal.name.is_empty()) {
         let access = if signal.role == Role::Input { Access::Input } else { Access::Signal };
-        let tail = signal.writers.first().and_then(|writer| {
+        let written = signal.writers.first().and_then(|writer| {
             let block = program.main().block(writer.block);
             let decl = program.decl(block.decl);
             let index = output_decl(decl, &block.sizes, writer.output as usize)?;
-            Some(decl.outputs[index].tail.clone())
+            Some((&decl.outputs[index].tail, block))
         });
-        let tail = tail.unwrap_or_default();
-        points.push(Point {
-            name: signal.name.clone(),
+        see(Seen {
+            name: &signal.name,
             place: Place::Signal(SignalId(i as u32)),
-            path: Vec::new(),
+            path: &[],
             ty: signal.ty,
             time: false,
             access,
-            unit: tail.unit,
-            names: tail.names,
+            tail: written.map(|(tail, _)| tail),
+            declared: written.map(|(_, block)| (block.decl, block.sizes.as_slice())),
         });
     }
 }
@@ -155,88 +189,112 @@ pub fn output_decl(decl: &crate::decl::Decl, sizes: &[i32], expanded: usize) -> 
     None
 }
 
-fn images(program: &Program, points: &mut Vec<Point>) {
+fn images(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
     for (i, image) in program.images.iter().enumerate() {
-        let ty = if image.scalar == Scalar::Int { Type::INT } else { Type::REAL };
-        points.push(Point {
-            name: image.name.clone(),
+        see(Seen {
+            name: &image.name,
             place: Place::Image(ImageId(i as u32)),
-            path: Vec::new(),
-            ty,
+            path: &[],
+            ty: if image.scalar == Scalar::Int { Type::INT } else { Type::REAL },
             time: false,
             access: if image.direction == Direction::In { Access::Image } else { Access::Signal },
-            unit: None,
-            names: Vec::new(),
+            tail: None,
+            declared: None,
         });
     }
 }
 
-fn parameters(program: &Program, points: &mut Vec<Point>) {
+fn parameters(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
+    let mut name = String::new();
     for (b, block) in program.main().blocks.iter().enumerate().filter(|(_, block)| block.tunable) {
         let decl = program.decl(block.decl);
         for (p, param) in decl.params.iter().enumerate().filter(|(_, param)| !param.fixed) {
             let Some(ty) = kernel::resolve(&param.ty, &block.sizes) else {
                 continue;
             };
-            points.push(Point {
-                name: format!("{}.{}", block.name, param.name),
+            name.clear();
+            name.extend([block.name.as_str(), ".", param.name.as_str()]);
+            see(Seen {
+                name: &name,
                 place: Place::Param(BlockId(b as u32), p as u32),
-                path: Vec::new(),
+                path: &[],
                 ty,
                 time: false,
                 access: Access::Tunable,
-                unit: param.tail.unit.clone(),
-                names: param.tail.names.clone(),
+                tail: Some(&param.tail),
+                declared: Some((block.decl, &block.sizes)),
             });
         }
     }
 }
 
-fn cells(program: &Program, points: &mut Vec<Point>) {
+fn cells(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
     for (i, cell) in program.main().cells.iter().enumerate() {
         let block = program.main().block(cell.block);
-        let tail = program.decl(block.decl).ports().nth(cell.port as usize).map(|port| port.tail.clone());
-        let tail = tail.unwrap_or_default();
-        points.push(Point {
-            name: cell.name.clone(),
+        let port = port_decl(program.decl(block.decl), &block.sizes, cell.port as usize);
+        see(Seen {
+            name: &cell.name,
             place: Place::Cell(CellId(i as u32)),
-            path: Vec::new(),
+            path: &[],
             ty: cell.ty,
             time: false,
             access: Access::Operator,
-            unit: tail.unit,
-            names: tail.names,
+            tail: port.map(|port| &port.tail),
+            declared: Some((block.decl, &block.sizes)),
         });
     }
 }
 
-fn memory(program: &Program, unit: UnitId, path: &mut Vec<BlockId>, prefix: &str, points: &mut Vec<Point>) {
+/// The declared port of an expanded one.
+fn port_decl<'d>(decl: &'d Decl, sizes: &[i32], expanded: usize) -> Option<&'d PortDecl> {
+    let mut first = 0;
+    decl.ports().find(|port| {
+        first += kernel::count(port.group.as_ref(), sizes).unwrap_or(0);
+        expanded < first
+    })
+}
+
+fn memory(
+    program: &Program,
+    unit: UnitId,
+    path: &mut Vec<BlockId>,
+    prefix: &mut String,
+    see: &mut dyn FnMut(Seen<'_>),
+) {
+    let length = prefix.len();
     for (b, block) in program.unit(unit).blocks.iter().enumerate() {
-        let name = format!("{prefix}{}", block.name);
         path.push(BlockId(b as u32));
+        prefix.extend([block.name.as_str(), "."]);
         if let Some(inner) = block.unit {
-            memory(program, inner, path, &format!("{name}."), points);
+            memory(program, inner, path, prefix, see);
         } else {
-            let decl = program.decl(block.decl);
-            for (f, field) in decl.memory.iter().enumerate() {
-                let time = matches!(field.ty, crate::decl::TypeExpr::Time);
-                let ty = if time { Some(Type::INT) } else { kernel::resolve(&field.ty, &block.sizes) };
-                let Some(ty) = ty.filter(|ty| ty.elements() > 0) else {
-                    continue;
-                };
-                points.push(Point {
-                    name: format!("{name}.{}", field.name),
-                    place: Place::Memory(f as u32),
-                    path: path.clone(),
-                    ty,
-                    time,
-                    access: Access::State,
-                    unit: None,
-                    names: Vec::new(),
-                });
-            }
+            fields(program.decl(block.decl), block, path, prefix, see);
         }
+        prefix.truncate(length);
         path.pop();
+    }
+}
+
+fn fields(decl: &Decl, block: &Block, path: &[BlockId], prefix: &mut String, see: &mut dyn FnMut(Seen<'_>)) {
+    let length = prefix.len();
+    for (f, field) in decl.memory.iter().enumerate() {
+        let time = matches!(field.ty, TypeExpr::Time);
+        let ty = if time { Some(Type::INT) } else { kernel::resolve(&field.ty, &block.sizes) };
+        let Some(ty) = ty.filter(|ty| ty.elements() > 0) else {
+            continue;
+        };
+        prefix.push_str(&field.name);
+        see(Seen {
+            name: prefix,
+            place: Place::Memory(f as u32),
+            path,
+            ty,
+            time,
+            access: Access::State,
+            tail: None,
+            declared: Some((block.decl, &block.sizes)),
+        });
+        prefix.truncate(length);
     }
 }
 
