@@ -3,6 +3,7 @@
 pub mod cases;
 pub mod compilers;
 pub mod expect;
+pub mod fences;
 pub mod table;
 
 use std::path::{Path, PathBuf};
