@@ -27,6 +27,10 @@ pub fn amalgamate(emitted: &Emitted) -> Vec<(String, String)> {
     out
 }
 
+/// The header with the kernels' prototypes comes first here, so that their linkage is the one that it gives them.
+const STATIC: &str = "#define PCL2_KERNEL static inline";
+const EXTERNAL: &str = "#define PCL2_KERNEL";
+
 struct Weaver<'a> {
     files: &'a BTreeMap<&'a str, &'a str>,
     folders: &'a [String],
@@ -44,7 +48,7 @@ impl Weaver<'_> {
             match included(line).and_then(|name| self.find(path, name)) {
                 Some(found) => self.weave(&found),
                 None => {
-                    self.text.push_str(line);
+                    self.text.push_str(if line == STATIC { EXTERNAL } else { line });
                     self.text.push('\n');
                 }
             }

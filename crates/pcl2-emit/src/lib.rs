@@ -18,6 +18,7 @@ mod init;
 mod io;
 mod json;
 mod layout;
+mod macros;
 mod map;
 mod names;
 mod points;

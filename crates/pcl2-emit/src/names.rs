@@ -1,5 +1,6 @@
 //! Names that are legal in C: one place that turns what users write into identifiers.
 
+use crate::macros::is_macro;
 use rustc_hash::FxHashSet;
 use std::borrow::Cow;
 
@@ -84,7 +85,7 @@ fn legal<'a>(text: &'a str, prefix: &str) -> Cow<'a, str> {
     let named = text.bytes().next().is_some_and(|byte| byte.is_ascii_alphabetic());
     let mut name = if plain && named { Cow::Borrowed(text) } else { Cow::Owned(mapped(text, prefix)) };
     let ours = name.starts_with("pcl2_") || name.starts_with("PCL2_");
-    if is_keyword(&name) || (plain && name.ends_with('_')) || ours {
+    if is_keyword(&name) || is_macro(&name) || (plain && name.ends_with('_')) || ours {
         name.to_mut().push('_');
     }
     name

@@ -1,0 +1,89 @@
+//! Macros of the C library that stand for a value: a member cannot have such a name once its header is included.
+
+/// Those of the standard's headers, and what GNU C and newlib add to `math.h`, `errno.h` and `signal.h`.
+const MACROS: &[&str] = &[
+    "BIG_ENDIAN", "BUFSIZ", "CHAR_BIT", "CHAR_MAX", "CHAR_MIN", "CLK_TCK", "CLOCKS_PER_SEC", "CLOCK_ALLOWED",
+    "CLOCK_DISABLED", "CLOCK_DISALLOWED", "CLOCK_ENABLED", "CLOCK_REALTIME", "DBL_DIG", "DBL_EPSILON",
+    "DBL_MANT_DIG", "DBL_MAX", "DBL_MAX_10_EXP", "DBL_MAX_EXP", "DBL_MIN", "DBL_MIN_10_EXP", "DBL_MIN_EXP",
+    "DECIMAL_DIG", "E2BIG", "EACCES", "EADDRINUSE", "EADDRNOTAVAIL", "EADV", "EAFNOSUPPORT", "EAGAIN", "EALREADY",
+    "EBADE", "EBADF", "EBADFD", "EBADMSG", "EBADR", "EBADRQC", "EBADSLT", "EBFONT", "EBUSY", "ECANCELED", "ECHILD",
+    "ECHRNG", "ECOMM", "ECONNABORTED", "ECONNREFUSED", "ECONNRESET", "EDEADLK", "EDEADLOCK", "EDESTADDRREQ", "EDOM",
+    "EDOTDOT", "EDQUOT", "EEXIST", "EFAULT", "EFBIG", "EFTYPE", "EHOSTDOWN", "EHOSTUNREACH", "EHWPOISON", "EIDRM",
+    "EILSEQ", "EINPROGRESS", "EINTR", "EINVAL", "EIO", "EISCONN", "EISDIR", "EISNAM", "EKEYEXPIRED", "EKEYREJECTED",
+    "EKEYREVOKED", "EL2HLT", "EL2NSYNC", "EL3HLT", "EL3RST", "ELIBACC", "ELIBBAD", "ELIBEXEC", "ELIBMAX", "ELIBSCN",
+    "ELNRNG", "ELOOP", "EMEDIUMTYPE", "EMFILE", "EMLINK", "EMSGSIZE", "EMULTIHOP", "ENAMETOOLONG", "ENAVAIL",
+    "ENETDOWN", "ENETRESET", "ENETUNREACH", "ENFILE", "ENOANO", "ENOBUFS", "ENOCSI", "ENODATA", "ENODEV", "ENOENT",
+    "ENOEXEC", "ENOKEY", "ENOLCK", "ENOLINK", "ENOMEDIUM", "ENOMEM", "ENOMSG", "ENONET", "ENOPKG", "ENOPROTOOPT",
+    "ENOSPC", "ENOSR", "ENOSTR", "ENOSYS", "ENOTBLK", "ENOTCONN", "ENOTDIR", "ENOTEMPTY", "ENOTNAM",
+    "ENOTRECOVERABLE", "ENOTSOCK", "ENOTSUP", "ENOTTY", "ENOTUNIQ", "ENXIO", "EOF", "EOPNOTSUPP", "EOVERFLOW",
+    "EOWNERDEAD", "EPERM", "EPFNOSUPPORT", "EPIPE", "EPROTO", "EPROTONOSUPPORT", "EPROTOTYPE", "ERANGE", "EREMCHG",
+    "EREMOTE", "EREMOTEIO", "ERESTART", "ERFKILL", "EROFS", "ESHUTDOWN", "ESOCKTNOSUPPORT", "ESPIPE", "ESRCH",
+    "ESRMNT", "ESTALE", "ESTRPIPE", "ETIME", "ETIMEDOUT", "ETOOMANYREFS", "ETXTBSY", "EUCLEAN", "EUNATCH", "EUSERS",
+    "EWOULDBLOCK", "EXDEV", "EXFULL", "EXIT_FAILURE", "EXIT_SUCCESS", "EXPR_NEST_MAX", "FE_ALL_EXCEPT",
+    "FE_DFL_ENV", "FE_DIVBYZERO", "FE_DOWNWARD", "FE_INEXACT", "FE_INVALID", "FE_OVERFLOW", "FE_TONEAREST",
+    "FE_TOWARDZERO", "FE_UNDERFLOW", "FE_UPWARD", "FILENAME_MAX", "FLT_DIG", "FLT_EPSILON", "FLT_EVAL_METHOD",
+    "FLT_MANT_DIG", "FLT_MAX", "FLT_MAX_10_EXP", "FLT_MAX_EXP", "FLT_MIN", "FLT_MIN_10_EXP", "FLT_MIN_EXP",
+    "FLT_RADIX", "FLT_ROUNDS", "FOPEN_MAX", "FP_ILOGB0", "FP_ILOGBNAN", "FP_INFINITE", "FP_INT_DOWNWARD",
+    "FP_INT_TONEAREST", "FP_INT_TONEARESTFROMZERO", "FP_INT_TOWARDZERO", "FP_INT_UPWARD", "FP_LLOGB0",
+    "FP_LLOGBNAN", "FP_NAN", "FP_NORMAL", "FP_SUBNORMAL", "FP_ZERO", "F_OK", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL",
+    "I", "INFINITY", "INT16_MAX", "INT16_MIN", "INT32_MAX", "INT32_MIN", "INT64_MAX", "INT64_MIN", "INT8_MAX",
+    "INT8_MIN", "INTMAX_MAX", "INTMAX_MIN", "INTPTR_MAX", "INTPTR_MIN", "INT_FAST16_MAX", "INT_FAST16_MIN",
+    "INT_FAST32_MAX", "INT_FAST32_MIN", "INT_FAST64_MAX", "INT_FAST64_MIN", "INT_FAST8_MAX", "INT_FAST8_MIN",
+    "INT_LEAST16_MAX", "INT_LEAST16_MIN", "INT_LEAST32_MAX", "INT_LEAST32_MIN", "INT_LEAST64_MAX",
+    "INT_LEAST64_MIN", "INT_LEAST8_MAX", "INT_LEAST8_MIN", "INT_MAX", "INT_MIN", "LC_ADDRESS", "LC_ADDRESS_MASK",
+    "LC_ALL", "LC_ALL_MASK", "LC_COLLATE", "LC_COLLATE_MASK", "LC_CTYPE", "LC_CTYPE_MASK", "LC_GLOBAL_LOCALE",
+    "LC_IDENTIFICATION", "LC_IDENTIFICATION_MASK", "LC_MEASUREMENT", "LC_MEASUREMENT_MASK", "LC_MESSAGES",
+    "LC_MESSAGES_MASK", "LC_MONETARY", "LC_MONETARY_MASK", "LC_NAME", "LC_NAME_MASK", "LC_NUMERIC",
+    "LC_NUMERIC_MASK", "LC_PAPER", "LC_PAPER_MASK", "LC_TELEPHONE", "LC_TELEPHONE_MASK", "LC_TIME", "LC_TIME_MASK",
+    "LDBL_DIG", "LDBL_EPSILON", "LDBL_MANT_DIG", "LDBL_MAX", "LDBL_MAX_10_EXP", "LDBL_MAX_EXP", "LDBL_MIN",
+    "LDBL_MIN_10_EXP", "LDBL_MIN_EXP", "LLONG_MAX", "LLONG_MIN", "LONG_MAX", "LONG_MIN", "L_tmpnam",
+    "MATH_ERREXCEPT", "MATH_ERRNO", "MAXFLOAT", "MB_CUR_MAX", "MB_LEN_MAX", "M_1_PI", "M_1_PIf", "M_1_PIl",
+    "M_2_PI", "M_2_PIf", "M_2_PIl", "M_2_SQRTPI", "M_2_SQRTPIf", "M_2_SQRTPIl", "M_3PI_4", "M_E", "M_Ef", "M_El",
+    "M_INVLN2", "M_IVLN10", "M_LN10", "M_LN10f", "M_LN10l", "M_LN2", "M_LN2HI", "M_LN2LO", "M_LN2f", "M_LN2l",
+    "M_LOG10E", "M_LOG10Ef", "M_LOG10El", "M_LOG2E", "M_LOG2Ef", "M_LOG2El", "M_LOG2_E", "M_PI", "M_PI_2",
+    "M_PI_2f", "M_PI_2l", "M_PI_4", "M_PI_4f", "M_PI_4l", "M_PIf", "M_PIl", "M_SQRT1_2", "M_SQRT1_2f", "M_SQRT1_2l",
+    "M_SQRT2", "M_SQRT2f", "M_SQRT2l", "M_SQRT3", "M_SQRTPI", "M_TWOPI", "NAN", "NSIG", "NULL", "PTRDIFF_MAX",
+    "PTRDIFF_MIN", "P_tmpdir", "RAND_MAX", "SA_NOCLDSTOP", "SCHAR_MAX", "SCHAR_MIN", "SEEK_CUR", "SEEK_DATA",
+    "SEEK_END", "SEEK_HOLE", "SEEK_SET", "SHRT_MAX", "SHRT_MIN", "SIGABRT", "SIGALRM", "SIGBUS", "SIGCHLD",
+    "SIGCLD", "SIGCONT", "SIGEMT", "SIGEV_NONE", "SIGEV_SIGNAL", "SIGEV_THREAD", "SIGEV_THREAD_ID", "SIGFPE",
+    "SIGHUP", "SIGILL", "SIGINT", "SIGIO", "SIGIOT", "SIGKILL", "SIGLOST", "SIGPIPE", "SIGPOLL", "SIGPROF",
+    "SIGPWR", "SIGQUIT", "SIGRTMAX", "SIGRTMIN", "SIGSEGV", "SIGSTKFLT", "SIGSTKSZ", "SIGSTOP", "SIGSYS", "SIGTERM",
+    "SIGTRAP", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGURG", "SIGUSR1", "SIGUSR2", "SIGVTALRM", "SIGWINCH", "SIGXCPU",
+    "SIGXFSZ", "SIG_ATOMIC_MAX", "SIG_ATOMIC_MIN", "SIG_ATOMIC_WIDTH", "SIG_BLOCK", "SIG_DFL", "SIG_ERR",
+    "SIG_HOLD", "SIG_IGN", "SIG_SETMASK", "SIG_UNBLOCK", "SIZE_MAX", "TIMER_ABSTIME", "TMP_MAX", "UCHAR_MAX",
+    "UINT16_MAX", "UINT32_MAX", "UINT64_MAX", "UINT8_MAX", "UINTMAX_MAX", "UINTPTR_MAX", "UINT_FAST16_MAX",
+    "UINT_FAST32_MAX", "UINT_FAST64_MAX", "UINT_FAST8_MAX", "UINT_LEAST16_MAX", "UINT_LEAST32_MAX",
+    "UINT_LEAST64_MAX", "UINT_LEAST8_MAX", "UINT_MAX", "ULLONG_MAX", "ULONG_MAX", "USHRT_MAX", "WCHAR_MAX",
+    "WCHAR_MIN", "WEOF", "WINT_MAX", "WINT_MIN", "and", "and_eq", "bitand", "bitor", "bool", "compl", "complex",
+    "errno", "false", "math_errhandling", "not", "not_eq", "or", "or_eq", "stderr", "stdin", "stdout", "true",
+    "xor", "xor_eq",
+];
+
+/// Whether this is the name of such a macro.
+pub(crate) fn is_macro(name: &str) -> bool {
+    MACROS.binary_search(&name).is_ok() || is_format(name)
+}
+
+/// `PRId32`, `SCNxLEAST16`, ..
+fn is_format(name: &str) -> bool {
+    let rest = name.strip_prefix("PRI").or_else(|| name.strip_prefix("SCN"));
+    let rest = rest.and_then(|rest| rest.strip_prefix(['d', 'i', 'o', 'u', 'x', 'X']));
+    let widths = ["8", "16", "32", "64", "FAST", "LEAST", "MAX", "PTR"];
+    rest.is_some_and(|rest| widths.iter().any(|width| rest.starts_with(width)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_sorted() {
+        assert!(MACROS.is_sorted());
+    }
+
+    #[test]
+    fn macros_are_known_and_names_of_plants_are_not() {
+        assert!(["M_PI", "EIO", "PRIu32", "SCNxLEAST8", "I", "EOF"].into_iter().all(is_macro));
+        assert!(["PRI", "PRIOR", "SCN1", "LEVEL_MAX", "E1", "M1", "FIC101"].into_iter().all(|name| !is_macro(name)));
+    }
+}
