@@ -46,7 +46,7 @@ fn prefix(out: &mut String, cx: &Context<'_>, scope: Scope<'_>, part: u32) {
     } else if part == scope.part {
         out.push_str("part->");
     } else {
-        let _ = write!(out, "{}{}.", scope.root, cx.layout.part_names[part as usize]);
+        out.extend([scope.root, &cx.layout.part_names[part as usize], "."]);
     }
 }
 
@@ -161,7 +161,7 @@ pub(crate) fn signal_pointer(out: &mut String, cx: &Context<'_>, scope: Scope<'_
 
 /// An operator cell.
 pub(crate) fn cell(out: &mut String, cx: &Context<'_>, scope: Scope<'_>, cell: CellId) {
-    let _ = write!(out, "{}cold.{}", scope.root, cx.layout.cell_names[cell.0 as usize]);
+    out.extend([scope.root, "cold.", &cx.layout.cell_names[cell.0 as usize]]);
 }
 
 /// The value wired to a scalar port of this number type.

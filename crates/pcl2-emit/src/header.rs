@@ -128,9 +128,18 @@ fn member(out: &mut String, cx: &Context<'_>, unit: UnitId, block: usize, indent
     let name = &member.name;
     let _ = match shape.form {
         Form::Nothing => Ok(()),
-        Form::Kernel => writeln!(out, "{indent}struct pcl2_{} {name};", cx.code(shape.decl).decl.name),
-        Form::Struct => writeln!(out, "{indent}struct {} {name};", shape.tag),
-        Form::Body(inner) => writeln!(out, "{indent}struct {} {name};", cx.unit_layout(inner).tag),
+        Form::Kernel => {
+            out.extend([indent, "struct pcl2_", &cx.code(shape.decl).decl.name, " ", name, ";\n"]);
+            Ok(())
+        }
+        Form::Struct => {
+            out.extend([indent, "struct ", &shape.tag, " ", name, ";\n"]);
+            Ok(())
+        }
+        Form::Body(inner) => {
+            out.extend([indent, "struct ", &cx.unit_layout(inner).tag, " ", name, ";\n"]);
+            Ok(())
+        }
         Form::Plain => {
             let field = &shape.fields[0];
             match field.count {
@@ -232,7 +241,7 @@ fn cold(out: &mut String, cx: &Context<'_>) {
     let mut text = String::new();
     for (b, name) in cx.layout.cold_names.iter().enumerate().filter_map(|(b, name)| Some((b, name.as_ref()?))) {
         if let Some(cold) = cx.shape_of(UnitId(0), BlockId(b as u32)).cold {
-            let _ = writeln!(text, "        struct {} {name};", cx.layout.colds[cold].tag);
+            text.extend(["        struct ", &cx.layout.colds[cold].tag, " ", name, ";\n"]);
         }
     }
     for (cell, name) in unit.cells.iter().zip(&cx.layout.cell_names) {

@@ -38,17 +38,18 @@ fn hot(out: &mut String, cx: &Context<'_>) {
     let members = &cx.layout.units[0].members;
     let mut part = WHOLE;
     let mut inner = String::new();
+    let mut values = String::new();
     for (b, member) in members.iter().enumerate() {
         if member.part != part {
             close_part(out, cx, part, &mut inner);
             part = member.part;
         }
         let indent = if part == WHOLE { "    " } else { "        " };
-        let mut values = String::new();
+        values.clear();
         block_values(&mut values, cx, UnitId(0), BlockId(b as u32), &|_| None);
         if !values.is_empty() {
             let target = if part == WHOLE { &mut *out } else { &mut inner };
-            let _ = writeln!(target, "{indent}.{} = {{{values}}},", member.name);
+            target.extend([indent, ".", &member.name, " = {", &values, "},\n"]);
         }
     }
     close_part(out, cx, part, &mut inner);
@@ -135,7 +136,7 @@ fn initialiser(out: &mut String, cx: &Context<'_>, name: &str, value: &Value, ar
         return;
     }
     separate(out);
-    let _ = write!(out, ".{name} = ");
+    out.extend([".", name, " = "]);
     match array {
         None => text::element(out, value, 0, scalar, cx.program.width),
         Some(_) => {
@@ -148,6 +149,7 @@ fn initialiser(out: &mut String, cx: &Context<'_>, name: &str, value: &Value, ar
 
 fn parameters(out: &mut String, cx: &Context<'_>) {
     let unit = cx.program.main();
+    let mut values = String::new();
     for (b, name) in cx.layout.cold_names.iter().enumerate().filter_map(|(b, name)| Some((b, name.as_ref()?))) {
         let id = BlockId(b as u32);
         let (block, shape) = (unit.block(id), cx.shape_of(UnitId(0), id));
@@ -155,12 +157,12 @@ fn parameters(out: &mut String, cx: &Context<'_>) {
             continue;
         };
         let decl = cx.code(block.decl).decl;
-        let mut values = String::new();
+        values.clear();
         for (i, field) in cold.params.iter().enumerate().filter_map(|(i, field)| Some((i, (*field)?))) {
             value(&mut values, cx, &cold.fields[field].name, &decl.params[i].ty, block, resolve(&block.params[i], &|_| None));
         }
         if !values.is_empty() {
-            let _ = writeln!(out, "        .{name} = {{{values}}},");
+            out.extend(["        .", name, " = {", &values, "},\n"]);
         }
     }
 }

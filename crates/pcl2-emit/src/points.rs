@@ -42,8 +42,12 @@ pub(crate) struct Kind {
     pub(crate) c: String,
     /// In JSON.
     pub(crate) json: String,
-    /// Type and access.
-    hashed: String,
+    /// Its index as the end of a row.
+    row_end: String,
+    /// Its index in a row of the JSON file.
+    json_row: String,
+    /// FNV-1a over type and access.
+    hash: u64,
 }
 
 /// Visits all points.
@@ -56,9 +60,10 @@ pub(crate) fn points(cx: &Context<'_>) -> Points {
 }
 
 const FNV_START: u64 = 0xcbf2_9ce4_8422_2325;
+const FNV_PRIME: u64 = 0x0000_0100_0000_01b3;
 
 fn fnv(hash: u64, text: &str) -> u64 {
-    text.bytes().chain([0]).fold(hash, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+    text.bytes().chain([0]).fold(hash, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(FNV_PRIME))
 }
 
 /// Points with the same key have the same kind.
@@ -82,7 +87,8 @@ impl Writer<'_, '_> {
     fn add(&mut self, seen: &Seen<'_>) {
         let array = array_of(seen.place);
         let kind = self.kind(seen, array);
-        self.points.hash = fnv(fnv(self.points.hash, seen.name), &self.points.kinds[kind].hashed);
+        let kind = &self.points.kinds[kind];
+        self.points.hash = (fnv(self.points.hash, seen.name) ^ kind.hash).wrapping_mul(FNV_PRIME);
         map_row(&mut self.points.rows, self.cx, seen, kind);
         json_row(&mut self.points.arrays[array], self.cx, seen, kind);
         if array < 2 {
@@ -117,12 +123,15 @@ impl Writer<'_, '_> {
 
     fn new_kind(&mut self, seen: &Seen<'_>) -> usize {
         let decl = seen.declared.map(|(decl, _)| self.cx.program.decl(decl));
+        let next = self.points.kinds.len();
+        let hashed = format!("{}{}{}", seen.ty, if seen.time { "t" } else { "" }, access(seen.access));
         let kind = Kind {
             c: kind_in_c(self.cx, seen, decl),
             json: serde_json::to_string(&kind_row(seen, decl)).unwrap_or_default(),
-            hashed: format!("{}{}{:?}", seen.ty, if seen.time { "t" } else { "" }, seen.access),
+            row_end: format!("), {next}}},\n"),
+            json_row: format!(", \"kind\": {next}"),
+            hash: fnv(FNV_START, &hashed),
         };
-        let next = self.points.kinds.len();
         let index = *self.equal.entry(format!("{}{}", kind.c, kind.json)).or_insert(next);
         if index == next {
             self.points.kinds.push(kind);
@@ -284,20 +293,19 @@ fn spelled(decl: Option<&Decl>, expr: &Expr) -> String {
     }
 }
 
-fn map_row(out: &mut String, cx: &Context<'_>, seen: &Seen<'_>, kind: usize) {
+fn map_row(out: &mut String, cx: &Context<'_>, seen: &Seen<'_>, kind: &Kind) {
     out.push_str("    {");
     text::string(out, seen.name);
     if seen.ty.elements() == 0 {
-        out.push_str(", 0, ");
-    } else {
-        out.push_str(", offsetof(");
-        out.push_str(&cx.name);
-        out.push_str(", ");
-        place(out, cx, seen);
-        out.push_str("), ");
+        out.push_str(", 0");
+        out.push_str(&kind.row_end[1..]);
+        return;
     }
-    text::count(out, kind);
-    out.push_str("},\n");
+    out.push_str(", offsetof(");
+    out.push_str(&cx.name);
+    out.push_str(", ");
+    place(out, cx, seen);
+    out.push_str(&kind.row_end);
 }
 
 /// The member designator of a point's first element.
@@ -366,11 +374,10 @@ fn memory(out: &mut String, cx: &Context<'_>, path: &[BlockId], field: usize) {
     }
 }
 
-fn json_row(out: &mut String, cx: &Context<'_>, seen: &Seen<'_>, kind: usize) {
+fn json_row(out: &mut String, cx: &Context<'_>, seen: &Seen<'_>, kind: &Kind) {
     out.push_str(if out.is_empty() { "\n    {\"name\": " } else { ",\n    {\"name\": " });
     json_string(out, seen.name);
-    out.push_str(", \"kind\": ");
-    text::count(out, kind);
+    out.push_str(&kind.json_row);
     if let Some(value) = default(cx, seen.place) {
         out.push_str(", \"default\": ");
         json_value(out, value, seen, cx.program.width);
@@ -421,8 +428,5 @@ fn json_number(out: &mut String, value: Number, scalar: Scalar, width: Width) {
         (Number::Int(value), Scalar::Real) => Real::from_int(value),
         (Number::Real(value), _) => value,
     };
-    let _ = match width {
-        Width::F64 => write!(out, "{:?}", real.wide),
-        Width::F32 => write!(out, "{:?}", real.narrow),
-    };
+    text::number_text(out, real, width);
 }

@@ -43,7 +43,7 @@ impl Rows {
 
 /// Builds the table. `next` is the index in the map of the first parameter.
 pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, mut next: usize, kernels: &[Facts]) -> Rows {
-    let mut builder = Builder { cx, kernels, variants: FxHashMap::default(), rows: Rows::default(), table: String::new() };
+    let mut builder = Builder { cx, kernels, variants: FxHashMap::default(), recent: FxHashMap::default(), rows: Rows::default(), table: String::new() };
     for (section, id) in blocks_by_section(cx) {
         let period = cx.program.period.map(|scan| cx.program.sections[section].period(scan, cx.program.substeps));
         let places = tunable_places(cx, id);
@@ -111,8 +111,17 @@ struct Builder<'c, 'a> {
     cx: &'c Context<'a>,
     kernels: &'c [Facts],
     variants: FxHashMap<Key, Variant>,
+    /// By shape: the last block with it, its period, its `struct pcl2_code`, whether its init is called directly.
+    recent: FxHashMap<u32, Recent>,
     rows: Rows,
     table: String,
+}
+
+struct Recent {
+    block: BlockId,
+    period: Option<i64>,
+    code: String,
+    direct: bool,
 }
 
 impl Builder<'_, '_> {
@@ -136,6 +145,32 @@ impl Builder<'_, '_> {
     }
 
     fn tunable(&mut self, statics: &mut Statics, id: BlockId, period: Option<i64>, first: usize) {
+        let shape = self.cx.layout.units[0].members[id.0 as usize].shape;
+        let alike = |recent: &&Recent| recent.period == period && self.same_fixed(recent.block, id);
+        let (code, direct) = match self.recent.get(&shape).filter(alike) {
+            Some(recent) => (recent.code.clone(), recent.direct),
+            None => {
+                let (code, direct) = self.look_up(statics, id, period);
+                self.recent.insert(shape, Recent { block: id, period, code: code.clone(), direct });
+                (code, direct)
+            }
+        };
+        if direct {
+            self.rows.inits.push((id, period));
+        }
+        self.row(&code, id, first);
+    }
+
+    /// Whether two blocks of one code have the same fixed parameters.
+    fn same_fixed(&self, a: BlockId, b: BlockId) -> bool {
+        let unit = self.cx.program.main();
+        let (a, b) = (unit.block(a), unit.block(b));
+        let params = self.cx.code(a.decl).decl.params.iter().zip(a.params.iter().zip(&b.params));
+        params.filter(|(param, _)| param.fixed).all(|(_, (a, b))| a == b)
+    }
+
+    /// The `struct pcl2_code` of a block, and whether its init is called directly.
+    fn look_up(&mut self, statics: &mut Statics, id: BlockId, period: Option<i64>) -> (String, bool) {
         let cx = self.cx;
         let block = cx.program.main().block(id);
         let (facts, decl) = (self.facts(block), cx.code(block.decl).decl);
@@ -153,14 +188,9 @@ impl Builder<'_, '_> {
             fixed: fixed(&|i| facts.tune[i] || checked(cx, block, facts, i)),
         };
         let started = fixed(&|i| facts.init[i]);
-        let name = self.code_of(statics, id, key, started, inits);
-        if name.1 {
-            self.rows.inits.push((id, period));
-        }
-        self.row(&name.0, id, first);
+        self.code_of(statics, id, key, started, inits)
     }
 
-    /// The `struct pcl2_code` of a block, and whether its init is called directly.
     fn code_of(&mut self, statics: &mut Statics, id: BlockId, key: Key, started: String, inits: bool) -> (String, bool) {
         let known = self.variants.entry(key.clone()).or_default();
         if let Some((_, name)) = known.starts.iter().find(|(known, _)| *known == started) {
@@ -183,18 +213,20 @@ impl Builder<'_, '_> {
     fn row(&mut self, code: &str, id: BlockId, first: usize) {
         let (cx, table) = (self.cx, &mut self.table);
         let form = cx.shape_of(UnitId(0), id).form;
-        let _ = write!(table, "    {{&{code}, ");
+        table.extend(["    {&", code, ", "]);
         if form == Form::Nothing {
             table.push('0');
         } else {
-            let _ = write!(table, "offsetof({}, ", cx.name);
+            table.extend(["offsetof(", &cx.name, ", "]);
             expr::block(table, cx, Scope::MEMBERS, id);
             table.push(')');
         }
-        let _ = match &cx.layout.cold_names[id.0 as usize] {
-            Some(cold) => writeln!(table, ", offsetof({}, cold.{cold}), {first}}},", cx.name),
-            None => writeln!(table, ", 0, {first}}},"),
-        };
+        match &cx.layout.cold_names[id.0 as usize] {
+            Some(cold) => table.extend([", offsetof(", &cx.name, ", cold.", cold, "), "]),
+            None => table.push_str(", 0, "),
+        }
+        text::count(table, first);
+        table.push_str("},\n");
         self.rows.count += 1;
     }
 
@@ -229,11 +261,10 @@ impl Builder<'_, '_> {
                 name
             }
         };
-        let _ = writeln!(
-            self.table,
-            "    {{&{name}, offsetof({}, cold.{}), 0, {first}}},",
-            cx.name, cx.layout.cell_names[cell.0 as usize]
-        );
+        let member = &cx.layout.cell_names[cell.0 as usize];
+        self.table.extend(["    {&", &name, ", offsetof(", &cx.name, ", cold.", member, "), 0, "]);
+        text::count(&mut self.table, first);
+        self.table.push_str("},\n");
         self.rows.count += 1;
     }
 }

@@ -8,10 +8,19 @@ const MAX_COMMENT: usize = 160;
 
 /// A real literal in shortest round-trip form.
 pub(crate) fn real(out: &mut String, value: Real, width: Width) {
-    let _ = match width {
-        Width::F64 => write!(out, "{:?}", value.wide),
-        Width::F32 => write!(out, "{:?}f", value.narrow),
-    };
+    number_text(out, value, width);
+    if width == Width::F32 {
+        out.push('f');
+    }
+}
+
+/// A real as the shortest decimal that reads back in its width, with a dot or an exponent.
+pub(crate) fn number_text(out: &mut String, value: Real, width: Width) {
+    let mut buffer = zmij::Buffer::new();
+    out.push_str(match width {
+        Width::F64 => buffer.format(value.wide),
+        Width::F32 => buffer.format(value.narrow),
+    });
 }
 
 /// An int literal; C has no literal for the smallest.
@@ -88,7 +97,7 @@ pub(crate) fn count(out: &mut String, value: usize) {
             break;
         }
     }
-    out.extend(digits[first..].iter().map(|digit| char::from(*digit)));
+    out.push_str(std::str::from_utf8(&digits[first..]).unwrap_or_default());
 }
 
 /// A string literal.
@@ -127,9 +136,33 @@ pub(crate) fn comment(out: &mut String, indent: &str, statement: &str) {
 
 fn fold(out: &mut String, statement: &str) {
     let start = out.len();
+    let plain = plain_length(statement.as_bytes());
+    let kept = if plain == statement.len() { plain } else { plain.saturating_sub(1) };
+    if kept > 0 && plain <= MAX_COMMENT {
+        out.push_str(&statement[..kept]);
+        fold_rest(out, start, &statement[kept..]);
+    } else {
+        fold_rest(out, start, statement);
+    }
+}
+
+/// How far a statement can be taken as it is.
+fn plain_length(bytes: &[u8]) -> usize {
+    let mut last = b' ';
+    for (i, byte) in bytes.iter().enumerate() {
+        let plain = matches!(byte, b'#'..=b'~' | b' ') && !matches!((last, *byte), (b' ', b' ') | (_, b'*' | b'/' | b'?'));
+        if !plain {
+            return i;
+        }
+        last = *byte;
+    }
+    bytes.len()
+}
+
+fn fold_rest(out: &mut String, start: usize, statement: &str) {
     let mut quoted = false;
     let mut skipping = false;
-    let mut last = b' ';
+    let mut last = out[start..].bytes().next_back().unwrap_or(b' ');
     for byte in statement.bytes() {
         if out.len() - start >= MAX_COMMENT {
             out.push_str(" ..");
