@@ -26,7 +26,8 @@ pub struct Fence {
     pub language: String,
     /// What stands between the fences.
     pub text: String,
-    file: Option<String>,
+    /// The file that it stands for.
+    pub file: Option<String>,
     args: Vec<String>,
 }
 
