@@ -31,10 +31,11 @@ use draft::Scope;
 use pcl2_lang::catalogue::Catalogue;
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::program::Program;
-use pcl2_lang::source::{FileId, Sources};
+use pcl2_lang::source::{FileId, Sources, Span};
 use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax::Tree;
 use pcl2_lang::types::Width;
+use pcl2_lang::verify;
 use rustc_hash::FxHashMap;
 
 /// What the command line and the project file decide about a program.
@@ -99,6 +100,11 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     }
     let delays = order::delays(&sectioned, &scope, diagnostics);
     let program = draft::seal(input, &sectioned, scope, composites, delays);
+    if verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {
+        let whole = Span { file: input.file, start: 0, end: 0 };
+        diagnostics.push(sizes::too_large(program.main().blocks.first().map_or(whole, |block| block.span)));
+        return None;
+    }
     inner::check_ranges(&program, diagnostics);
     Some(program)
 }

@@ -11,7 +11,7 @@ use pcl2_lang::kernel;
 use pcl2_lang::program::{SignalId, Source};
 use pcl2_lang::source::Span;
 use pcl2_lang::types::{MAX_ELEMENTS, Shape, Type};
-use pcl2_lang::verify::fits;
+use pcl2_lang::verify::{MAX_PROGRAM, declared_bytes, fits};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
 
@@ -35,6 +35,29 @@ pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &
         check_ports(input, scope, i, diagnostics);
     }
     check_written(input, scope, diagnostics);
+    check_total(scope, diagnostics);
+}
+
+/// A program beyond the limit is refused before its parameters are spread out.
+fn check_total(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let mut total: u64 = 0;
+    for draft in scope.drafts.iter_mut().filter(|draft| draft.sized) {
+        let (Some(decl), Some(sizes)) = (draft.decl, draft.known_sizes()) else {
+            continue;
+        };
+        let was = total;
+        total = declared_bytes(decl, &sizes).map_or(u64::MAX, |bytes| total.saturating_add(bytes));
+        draft.sized = total <= MAX_PROGRAM;
+        if !draft.sized && was <= MAX_PROGRAM {
+            diagnostics.push(too_large(draft.statement.code.span));
+        }
+    }
+}
+
+/// The message for a program whose data exceed the limit.
+pub(crate) fn too_large(span: Span) -> Diagnostic {
+    let message = format!("expected a program with at most {MAX_PROGRAM} bytes of variables, parameters and memory, found more");
+    Diagnostic::new(codes::TOO_LARGE, span, message)
 }
 
 /// Gives signals the types that constants alone tell, the lowest-numbered writer first.

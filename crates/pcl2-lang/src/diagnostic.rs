@@ -51,7 +51,7 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// A diagnostic with the code's own severity.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Diagnostic {
-        let message = message.into();
+        let message = shorten(message.into());
         Diagnostic { code, severity: code.severity(), span, message, labels: Vec::new(), help: None }
     }
 
@@ -73,6 +73,16 @@ impl Diagnostic {
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
+}
+
+/// A message may quote what was written, which may be a million characters.
+fn shorten(mut message: String) -> String {
+    let longest = 400;
+    if let Some((end, _)) = message.char_indices().nth(longest) {
+        message.truncate(end);
+        message.push_str(" ..");
+    }
+    message
 }
 
 /// The most errors that one run reports.

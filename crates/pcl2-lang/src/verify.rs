@@ -211,18 +211,22 @@ pub fn bytes(program: &Program) -> Option<u64> {
 }
 
 fn block_bytes(program: &Program, block: &Block) -> Option<u64> {
-    let decl = program.decl(block.decl);
+    declared_bytes(program.decl(block.decl), &block.sizes)
+}
+
+/// The bytes of the variables, parameters and memory of one block; `None` on overflow.
+pub fn declared_bytes(decl: &Decl, sizes: &[i32]) -> Option<u64> {
     let mut elements: u64 = 0;
     for field in decl.memory.iter().chain(&decl.tuned).chain(&decl.work) {
-        elements = elements.checked_add(kernel::field_elements(field, &block.sizes)? as u64)?;
+        elements = elements.checked_add(kernel::field_elements(field, sizes)? as u64)?;
     }
     for output in &decl.outputs {
-        let count = kernel::count(output.group.as_ref(), &block.sizes)? as u64;
-        let each = kernel::resolve(&output.ty, &block.sizes)?.elements() as u64;
+        let count = kernel::count(output.group.as_ref(), sizes)? as u64;
+        let each = kernel::resolve(&output.ty, sizes)?.elements() as u64;
         elements = elements.checked_add(count.checked_mul(each)?)?;
     }
     for param in &decl.params {
-        let each = kernel::resolve(&param.ty, &block.sizes).map_or(0, Type::elements);
+        let each = kernel::resolve(&param.ty, sizes).map_or(0, Type::elements);
         elements = elements.checked_add(each as u64)?;
     }
     elements.checked_mul(8)
