@@ -45,6 +45,13 @@ typedef char pcl2_real_has_the_configured_width[sizeof(pcl2_real) * 8 == PCL2_RE
 #define PCL2_INLINE static inline
 #endif
 
+/* A condition that seldom holds: what follows gives up its registers to the usual way. */
+#if defined(__GNUC__)
+#define PCL2_RARELY(condition) __builtin_expect(condition, 0)
+#else
+#define PCL2_RARELY(condition) (condition)
+#endif
+
 /* The IEEE 754 format of a real: its bits as an unsigned number, the bits of the fraction, the exponent's
  * offset, the exponent's mask, the distance of 1 to the next larger real. */
 #if PCL2_REAL_BITS == 64

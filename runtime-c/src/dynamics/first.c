@@ -20,11 +20,10 @@ PCL2_KERNEL void pcl2_first_tune(struct pcl2_first *self, pcl2_real a, pcl2_real
     self->g = integrator ? b * h : -(b / a) * pcl2_expm1(-x);
 }
 
-/* A bad u makes y bad, and so does an unstable plant that outgrows the reals: one test holds both. */
+/* A bad u makes y bad, and so does an unstable plant that outgrows the reals: one test holds both. y is stored in
+ * either case: who reads it next need not wait for the test. */
 PCL2_KERNEL void pcl2_first(struct pcl2_first *self, pcl2_real u)
 {
     const pcl2_real y = self->e * self->y + self->g * u;
-    if (!pcl2_is_bad(y)) {
-        self->y = y;
-    }
+    self->y = pcl2_is_bad(y) ? self->y : y;
 }

@@ -300,18 +300,19 @@ PCL2_INLINE void gpc_apply(struct gpc_size z, struct gpc_state at, pcl2_real u)
     *at.u = u;
 }
 
-/* The output of the law before its limits.  What y enters comes last, so that it waits for nothing else. */
+/* The output of the law before its limits.  The newest increment of u enters last: it is what the scan before
+ * finished with. */
 PCL2_INLINE pcl2_real gpc_law(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y)
 {
     const int32_t known = gpc_kept(z) + z.nb - 1 + z.d;
     const pcl2_real *const gain = at.gain + ((z.na > 0) ? 2 : 1);
     const pcl2_real error = at.gain[0] * (w - y);
-    pcl2_real sum = *at.u;
+    pcl2_real sum = *at.u + ((z.na > 0) ? error + at.gain[1] * (y - *at.y1) : error);
     PCL2_UNROLL
     for (int32_t i = 0; i < known; ++i) {
         sum += gain[i] * at.past[i];
     }
-    return sum + ((z.na > 0) ? error + at.gain[1] * (y - *at.y1) : error);
+    return sum;
 }
 
 /* The first good y stands for every y before it. */
@@ -349,7 +350,7 @@ PCL2_INLINE void gpc_scan(struct gpc_size z, struct gpc_state at, pcl2_real w, p
         *at.status = GPC_SIGNAL;
         return;
     }
-    if (lambda != *at.designed || gpc_changed(z.na + z.nb, p, at.model)) {
+    if (PCL2_RARELY(lambda != *at.designed || gpc_changed(z.na + z.nb, p, at.model))) {
         gpc_start(at, y);
         *at.status = gpc_redesign(z, p, lambda, at);
     }
