@@ -183,10 +183,21 @@ impl Case {
     ///
     /// # Errors
     /// When the run fails.
-    pub fn trace(&self, mut command: Command) -> Result<String, String> {
+    pub fn trace(&self, command: Command) -> Result<String, String> {
+        self.ran(command).map(|(trace, _)| trace)
+    }
+
+    /// The trace of such a run, and what it says about faults and refused sets.
+    ///
+    /// # Errors
+    /// When the run fails.
+    pub fn ran(&self, mut command: Command) -> Result<(String, String), String> {
         let Output { status, stdout, stderr } = run(&mut command);
         let said = String::from_utf8_lossy(&stderr).into_owned();
-        if status.success() { Ok(String::from_utf8(stdout).expect("text")) } else { Err(format!("{status}\n{said}")) }
+        if !status.success() {
+            return Err(format!("{status}\n{said}"));
+        }
+        Ok((String::from_utf8(stdout).expect("text"), said))
     }
 
     /// The tolerance in this width; `None`: not compared. A looser one than the standard needs a reason.

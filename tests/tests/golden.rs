@@ -59,10 +59,11 @@ fn engines(case: &Case, width: Width) -> Result<(), String> {
     if !builds(case) {
         return Ok(());
     }
-    let compiled = case.trace(case.run("cc", width))?;
+    let (compiled, said) = case.ran(case.run("cc", width))?;
     if !case.has_own_c() {
-        let embedded = case.trace(case.run("embedded", width))?;
-        same_text(&format!("{}: embedded and cc", width.name()), &embedded, &compiled)?;
+        let embedded = case.ran(case.run("embedded", width))?;
+        same_text(&format!("{}: embedded and cc", width.name()), &embedded.0, &compiled)?;
+        same_text(&format!("{}: faults, embedded and cc", width.name()), &embedded.1, &said)?;
     }
     let tolerance = case.tolerance(width)?;
     match (fs::read_to_string(case.folder.join("trace.csv")), tolerance) {

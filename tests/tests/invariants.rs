@@ -142,9 +142,13 @@ fn same_up_to_names(case: &Case, copy: &Case) -> Result<(), String> {
     let built = [folder(), folder()];
     check(case.command("build").arg("-o").arg(built[0].path()));
     check(copy.command("build").args(["--blocks", "../renamed", "-o"]).arg(built[1].path()));
-    let model = |i: usize| fs::read_to_string(built[i].path().join(format!("{}.json", case.name)));
-    let read = |i: usize| model(i).map_err(|error| error.to_string());
-    same_text("model", &read(0)?, &read(1)?.replace(PREFIX, ""))
+    let [original, renamed] = built.map(|folder| {
+        let path = files(folder.path(), "json").pop().expect("a model");
+        let text = fs::read_to_string(path).unwrap();
+        // The layout's hash goes over names, those of image words too.
+        text.lines().filter(|line| !line.contains("\"layout\":")).collect::<Vec<_>>().join("\n")
+    });
+    same_text("model", &original, &renamed.replace(PREFIX, ""))
 }
 
 fn copy_folder(from: &Path, to: &Path) {

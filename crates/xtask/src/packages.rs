@@ -4,8 +4,9 @@ use crate::shell::{found, run, say};
 use std::process::Command;
 
 /// A program that the tests call, and the Debian package that has it.
-const NEEDED: [(&str, &str); 5] = [
+const NEEDED: [(&str, &str); 6] = [
     ("gcc", "gcc"),
+    ("g++", "g++"),
     ("clang", "clang"),
     ("make", "make"),
     ("arm-none-eabi-gcc", "gcc-arm-none-eabi"),
@@ -13,7 +14,10 @@ const NEEDED: [(&str, &str); 5] = [
 ];
 
 /// Libraries without a program of their own: a file that tells, and the package.
-const LIBRARIES: [(&str, &str); 1] = [("/usr/lib/arm-none-eabi/include/stdint.h", "libnewlib-arm-none-eabi")];
+const LIBRARIES: [(&str, &str); 2] = [
+    ("/usr/include/stdio.h", "libc6-dev"),
+    ("/usr/lib/arm-none-eabi/include/stdint.h", "libnewlib-arm-none-eabi"),
+];
 
 /// What the benchmarks compare with.
 const PEERS: [(&str, &str); 2] = [("/usr/include/eigen3/Eigen/Core", "libeigen3-dev"), ("/usr/bin/g++", "g++")];

@@ -1,15 +1,26 @@
 //! The whole test suite.
 
 use crate::packages;
-use crate::shell::run;
+use crate::shell::{found, run};
 use std::process::Command;
 
 /// Formats, lints and tests everything.
 pub(crate) fn test() -> Result<(), String> {
     packages::install()?;
+    components()?;
     run(cargo().args(["fmt", "--all", "--check"]))?;
-    run(cargo().args(["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"]))?;
-    run(cargo().args(["test", "--workspace"]))
+    run(cargo().args(["clippy", "--workspace", "--all-targets", "--locked", "--quiet", "--", "-D", "warnings"]))?;
+    // Snapshots are compared, never written.
+    run(cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"]).env("INSTA_UPDATE", "no"))
+}
+
+/// Adds the formatter and the linter to a toolchain that came without them.
+fn components() -> Result<(), String> {
+    let has = |tool: &str| cargo().args([tool, "--version"]).output().is_ok_and(|output| output.status.success());
+    if (has("fmt") && has("clippy")) || !found("rustup") {
+        return Ok(());
+    }
+    run(Command::new("rustup").args(["component", "add", "rustfmt", "clippy"]))
 }
 
 fn cargo() -> Command {
