@@ -1,7 +1,7 @@
 //! Composites: a body compiled once for each combination of sizes.
 
 use crate::Input;
-use crate::draft::{self, Scope};
+use crate::draft::Scope;
 use pcl2_lang::ast::Statement;
 use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
@@ -72,7 +72,7 @@ fn body<'a>(
     composites.open.push(decl.name.clone());
     let statements: Vec<(&Statement, u32)> = decl.body.iter().flatten().map(|statement| (statement, 0)).collect();
     let mut scope = Scope::new(statements, Some((decl, sizes)));
-    draft::complete(input, &mut scope, composites, diagnostics);
+    crate::complete(input, &mut scope, composites, diagnostics);
     refuse_images(&scope, diagnostics);
     composites.open.pop();
     let index = composites.bodies.len();

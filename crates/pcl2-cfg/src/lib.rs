@@ -20,6 +20,7 @@ mod number;
 mod order;
 mod params;
 mod period;
+mod seal;
 mod sections;
 mod signals;
 mod sizes;
@@ -27,6 +28,7 @@ mod sizes;
 pub use files::{FileText, wanted_files};
 pub use period::check_period;
 
+use composite::Composites;
 use draft::Scope;
 use pcl2_lang::catalogue::Catalogue;
 use pcl2_lang::diagnostic::{self, Diagnostic};
@@ -92,14 +94,14 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     }
     let mut sectioned = sections::read(input, diagnostics);
     let mut scope = Scope::program(input, std::mem::take(&mut sectioned.statements));
-    let mut composites = composite::Composites::default();
-    draft::complete(input, &mut scope, &mut composites, diagnostics);
+    let mut composites = Composites::default();
+    complete(input, &mut scope, &mut composites, diagnostics);
     sections::check_contents(&sectioned, &scope, diagnostics);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return None;
     }
     let delays = order::delays(&sectioned, &scope, diagnostics);
-    let program = draft::seal(input, &sectioned, scope, composites, delays);
+    let program = seal::seal(input, &sectioned, scope, composites, delays);
     if verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {
         let whole = Span { file: input.file, start: 0, end: 0 };
         diagnostics.push(sizes::too_large(program.main().blocks.first().map_or(whole, |block| block.span)));
@@ -107,4 +109,19 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     }
     inner::check_ranges(&program, diagnostics);
     Some(program)
+}
+
+/// Runs the passes 2 to 6 over a scope.
+pub(crate) fn complete<'a>(
+    input: &Input<'a>,
+    scope: &mut Scope<'a>,
+    composites: &mut Composites<'a>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    bind::bind(input, scope, diagnostics);
+    number::number(scope, diagnostics);
+    signals::connect(input, scope, diagnostics);
+    sizes::solve(input, scope, diagnostics);
+    params::read(input, scope, diagnostics);
+    composite::expand(input, scope, composites, diagnostics);
 }

@@ -1,7 +1,7 @@
 //! Pass 4: a signal for each output, a source for each port.
 
 use crate::Input;
-use crate::draft::{Draft, Scope, Wire, tracked};
+use crate::draft::{Draft, Scope, Wire};
 use crate::bind::count_word;
 use crate::number::{RETURN_PORT, output_count, output_names};
 use pcl2_lang::ast::{Item as Place, Name, Number, Operand, Output};
@@ -9,7 +9,7 @@ use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, PortDecl};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
-use pcl2_lang::program::{BlockId, Cell, CellId, Role, SignalId, Source, Writer};
+use pcl2_lang::program::{BlockId, Cell, CellId, Role, SignalId, Source, Tracked, Writer};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
 use pcl2_lang::types::{Real, Type, Value};
@@ -367,6 +367,18 @@ impl<'a> Wirer<'_, 'a> {
         }
         draft.outputs.get(output as usize).map(|id| Source::Signal(*id))
     }
+}
+
+/// What a cell's `tracks` names.
+fn tracked(decl: &Decl, sizes: &[i32], name: &str) -> Option<Tracked> {
+    let mut expanded = 0;
+    for output in &decl.outputs {
+        if output.name == name {
+            return Some(Tracked::Output(expanded));
+        }
+        expanded += pcl2_lang::kernel::count(output.group.as_ref(), sizes)? as u32;
+    }
+    decl.memory.iter().position(|field| field.name == name).map(|field| Tracked::Memory(field as u32))
 }
 
 /// A default for each element of a port.

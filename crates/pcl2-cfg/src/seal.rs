@@ -1,0 +1,207 @@
+//! Finished drafts become the program.
+
+use crate::composite::Composites;
+use crate::draft::{Draft, Scope, Wire};
+use crate::sections::Sectioned;
+use crate::{Input, Tunable};
+use pcl2_lang::decl::Decl;
+use pcl2_lang::program::{
+    Block, DeclId, Delay, ImageId, ImageWord, Program, Section, SectionKind, Signal, Unit, UnitId,
+};
+use pcl2_lang::types::Type;
+use rustc_hash::FxHashMap;
+
+/// Turns finished drafts into a program.
+pub(crate) fn seal<'a>(
+    input: &Input<'a>,
+    sectioned: &Sectioned<'a>,
+    scope: Scope<'a>,
+    composites: Composites<'a>,
+    delays: Vec<Delay>,
+) -> Program {
+    let mut decls = DeclTable::default();
+    let mut images = ImageTable::default();
+    let mut sections = Vec::new();
+    let mut first = 0;
+    for (s, (kind, span)) in sectioned.sections.iter().enumerate() {
+        let end = scope.drafts.partition_point(|draft| draft.section as usize <= s) as u32;
+        sections.push(Section { kind: *kind, first, end, span: *span });
+        first = end;
+    }
+    let order = composites.order();
+    let initialize = sectioned.sections.iter().position(|(kind, _)| *kind == SectionKind::Initialize);
+    let choice = Choice { tunable: &input.options.tunable, initialize };
+    let mut units = vec![seal_unit(&choice, scope, &order, &mut decls, &mut images)];
+    for body in composites.into_bodies() {
+        units.push(seal_unit(&choice, body, &order, &mut decls, &mut images));
+    }
+    let options = input.options;
+    Program {
+        name: options.name.clone(),
+        period: options.period,
+        width: options.width,
+        decls: decls.decls,
+        units,
+        sections,
+        images: images.words,
+        substeps: options.substeps,
+        delays,
+        bindings: Vec::new(),
+    }
+}
+
+#[derive(Default)]
+struct DeclTable {
+    by_name: FxHashMap<String, DeclId>,
+    decls: Vec<Decl>,
+}
+
+impl DeclTable {
+    fn id(&mut self, decl: &Decl) -> DeclId {
+        if let Some(id) = self.by_name.get(&decl.name) {
+            return *id;
+        }
+        let id = DeclId(self.decls.len() as u32);
+        self.by_name.insert(decl.name.clone(), id);
+        self.decls.push(decl.clone());
+        id
+    }
+}
+
+#[derive(Default)]
+struct ImageTable {
+    by_name: FxHashMap<String, u32>,
+    words: Vec<ImageWord>,
+}
+
+impl ImageTable {
+    fn id(&mut self, word: ImageWord) -> ImageId {
+        let next = self.words.len() as u32;
+        let id = *self.by_name.entry(word.name.clone()).or_insert(next);
+        if id == next {
+            self.words.push(word);
+        }
+        ImageId(id)
+    }
+}
+
+/// `order[i]` is the unit of the i-th composite body.
+fn seal_unit(
+    choice: &Choice<'_>,
+    scope: Scope<'_>,
+    order: &[UnitId],
+    decls: &mut DeclTable,
+    images: &mut ImageTable,
+) -> Unit {
+    let equals = equals(&scope);
+    let cells = scope.cells;
+    let wires = &scope.wires;
+    let blocks = scope.drafts.into_iter().enumerate().filter_map(|(index, draft)| {
+        let decl = draft.decl?;
+        let name = identity(&draft, wires, equals.get(&index));
+        let in_program = scope.owner.is_none();
+        Some(Block {
+            number: draft.number,
+            tunable: in_program && choice.is_tunable(&name, draft.section),
+            name,
+            decl: decls.id(decl),
+            unit: draft.unit.map(|index| order[index]),
+            sizes: draft.known_sizes().unwrap_or_default(),
+            ports: draft.sources,
+            params: draft.params,
+            outputs: draft.outputs,
+            image: draft.image.map(|word| images.id(*word)),
+            span: draft.statement.span,
+        })
+    });
+    let blocks = blocks.collect();
+    let signals = scope.wires.into_iter().map(|wire| Signal {
+        name: wire.name,
+        ty: wire.ty.unwrap_or(Type::REAL),
+        writers: wire.writers,
+        role: wire.role,
+        span: wire.span,
+    });
+    Unit {
+        composite: scope.owner.map(|(decl, sizes)| (decls.id(decl), sizes)),
+        signals: signals.collect(),
+        blocks,
+        cells,
+        outputs: scope.outputs,
+    }
+}
+
+/// The identity of a block: its first output's name or its number, and its place among equals.
+fn identity(draft: &Draft<'_>, wires: &[Wire], place: Option<&usize>) -> String {
+    let first = draft.outputs.first().map_or("", |id| wires[id.0 as usize].name.as_str());
+    match place {
+        _ if first.is_empty() => draft.number.to_string(),
+        Some(place) => format!("{first}#{place}"),
+        None => first.to_owned(),
+    }
+}
+
+/// The blocks that share the name of their first output: their places among equals, in order of number, from 1.
+fn equals(scope: &Scope<'_>) -> FxHashMap<usize, usize> {
+    let mut places = FxHashMap::default();
+    for wire in scope.wires.iter().filter(|wire| wire.writers.len() > 1 && !wire.name.is_empty()) {
+        let first_output = wire.writers.iter().filter(|writer| writer.output == 0);
+        let mut blocks: Vec<usize> = first_output.map(|writer| writer.block.0 as usize).collect();
+        blocks.sort_by_key(|block| scope.drafts[*block].number);
+        if blocks.len() > 1 {
+            places.extend(blocks.into_iter().enumerate().map(|(i, block)| (block, i + 1)));
+        }
+    }
+    places
+}
+
+/// Which blocks keep their parameters in RAM.
+struct Choice<'a> {
+    tunable: &'a Tunable,
+    initialize: Option<usize>,
+}
+
+impl Choice<'_> {
+    fn is_tunable(&self, name: &str, section: u32) -> bool {
+        let chosen = match self.tunable {
+            Tunable::All => true,
+            Tunable::None => false,
+            Tunable::Names(patterns) => patterns.iter().any(|pattern| matches(pattern, name)),
+        };
+        chosen && self.initialize != Some(section as usize)
+    }
+}
+
+/// `*` stands for any run of characters.
+fn matches(pattern: &str, name: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let Some(mut rest) = name.strip_prefix(parts.next().unwrap_or("")) else {
+        return false;
+    };
+    let parts: Vec<&str> = parts.collect();
+    let Some((last, middle)) = parts.split_last() else {
+        return rest.is_empty();
+    };
+    for part in middle {
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.ends_with(last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn patterns_match_as_in_a_shell() {
+        assert!(matches("TIC*", "TIC101"));
+        assert!(matches("*.K", "a.K"));
+        assert!(matches("a*b*c", "aXbYc"));
+        assert!(!matches("a*b*c", "aXbY"));
+        assert!(!matches("TIC", "TIC1"));
+        assert!(matches("TIC", "TIC"));
+    }
+}
