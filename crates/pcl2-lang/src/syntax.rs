@@ -1,7 +1,7 @@
 //! Tokens -> statements: lines are cut, missing parentheses found, then each line is parsed by itself,
 //! so that one mistake never hides the next.
 
-use crate::ast::{Item, Line, Name, Number, Operand, Output, Statement};
+use crate::ast::{Item, Line, Name, Number, Output, Statement};
 use crate::codes;
 use crate::declare::raw::Expr;
 use crate::diagnostic::{self, Diagnostic};
@@ -45,6 +45,7 @@ pub struct Context<'a> {
     file: FileId,
     symbols: &'a mut Symbols,
     diagnostics: &'a mut Vec<Diagnostic>,
+    lines: Vec<Line>,
     outputs: Vec<Output>,
     items: Vec<Item>,
     too_deep: bool,
@@ -54,8 +55,6 @@ pub struct Context<'a> {
 pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics: &mut Vec<Diagnostic>) -> Tree {
     let source = sources.file(file);
     let mut context = Context::new(source, file, symbols, diagnostics);
-    let mut lines = Lines::new(source, file, &SECTION_WORDS);
-    let parser = cfg::CfgLineParser::new();
     let mut tree = Tree::default();
     if let Some(found) = no_text(source) {
         let message = format!("expected ASCII or UTF-8 text, found {found}");
@@ -64,34 +63,90 @@ pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics
         );
         return tree;
     }
-    while let Some(broken) = lines.next_line(context.diagnostics) {
-        if diagnostic::enough(context.diagnostics) {
-            return tree;
-        }
-        if broken {
-            context.spoil(&lines.tokens, &mut tree);
-            continue;
-        }
-        match parser.parse(&mut context, lines.tokens()) {
-            Ok(Line::End(span)) => {
+    let parser = cfg::CfgLinesParser::new();
+    let mut rows = Rows::new(source, file);
+    while !diagnostic::enough(context.diagnostics) {
+        let parsed = parser.parse(&mut context, &mut rows);
+        context.diagnostics.append(&mut rows.diagnostics);
+        match (parsed, rows.stop) {
+            (Err(error), _) => context.report(error, &rows.lines.tokens),
+            (Ok(()), Stop::Broken) => {}
+            (Ok(()), Stop::Word(span)) => {
                 tree.end = Some(span);
-                return tree;
+                break;
             }
-            Ok(line) => tree.lines.push(line),
-            Err(error) => {
-                context.report(error, &lines.tokens);
-                context.forget();
-                context.spoil(&lines.tokens, &mut tree);
+            (Ok(()), Stop::File) => {
+                context.missing_end();
+                break;
             }
         }
+        context.spoil(&rows.lines.tokens, &mut tree);
+        rows.next = usize::MAX;
     }
-    let length = source.text.len() as u32;
-    let end = context.span(length, length);
-    context.diagnostics.push(
-        Diagnostic::new(codes::MISSING_END, end, "expected END, found the end of the file")
-            .help("the file may be cut short; if it is whole, add a line END"),
-    );
+    tree.lines = context.lines;
     tree
+}
+
+/// The tokens of all lines up to END or to a line that cannot be parsed: one run of the parser takes them all.
+struct Rows<'a> {
+    lines: Lines<'a>,
+    /// The next token of the current line; one past the last stands for its end.
+    next: usize,
+    /// Why the tokens ended.
+    stop: Stop,
+    diagnostics: Vec<Diagnostic>,
+}
+
+#[derive(Clone, Copy)]
+enum Stop {
+    /// At the end of the file.
+    File,
+    /// At the word END.
+    Word(Span),
+    /// At a line that is broken in a way that was already reported.
+    Broken,
+}
+
+impl<'a> Rows<'a> {
+    fn new(source: &'a SourceFile, file: FileId) -> Rows<'a> {
+        let lines = Lines::new(source, file, &SECTION_WORDS);
+        Rows { lines, next: usize::MAX, stop: Stop::File, diagnostics: Vec::new() }
+    }
+
+    /// Reads the next line and returns its first token.
+    fn first(&mut self) -> Option<Lexeme> {
+        let full = diagnostic::enough(&self.diagnostics);
+        let broken = if full { None } else { self.lines.next_line(&mut self.diagnostics) };
+        let first = self.lines.tokens.first().copied().filter(|_| broken.is_some());
+        self.stop = match first {
+            Some(lexeme) if lexeme.token == Token::Key(Key::End) => Stop::Word(self.lines.span(lexeme)),
+            _ if broken == Some(true) => Stop::Broken,
+            Some(_) | None => Stop::File,
+        };
+        self.next = 1;
+        first.filter(|_| matches!(self.stop, Stop::File))
+    }
+}
+
+impl Iterator for Rows<'_> {
+    type Item = Result<(u32, Token, u32), ()>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let tokens = &self.lines.tokens;
+        let lexeme = match tokens.get(self.next) {
+            Some(lexeme) => {
+                self.next += 1;
+                *lexeme
+            }
+            None if self.next == tokens.len() => {
+                self.next = usize::MAX;
+                let end = tokens.last().map_or(0, |last| last.end);
+                Lexeme { token: Token::Newline, start: end, end }
+            }
+            None => self.first()?,
+        };
+        Some(Ok((lexeme.start, lexeme.token, lexeme.end)))
+    }
 }
 
 /// What a file that is no text at all looks like.
@@ -128,7 +183,6 @@ pub(crate) fn parse_body_line(context: &mut Context<'_>, lines: &Lines<'_>) -> O
     match cfg::CfgLineParser::new().parse(context, lines.tokens()) {
         Ok(line) => Some(line),
         Err(error) => {
-            context.forget();
             context.report(error, &lines.tokens);
             None
         }
@@ -343,7 +397,7 @@ impl<'a> Context<'a> {
         symbols: &'a mut Symbols,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Context<'a> {
-        Context { text: &source.text, file, symbols, diagnostics, outputs: Vec::new(), items: Vec::new(), too_deep: false }
+        Context { text: &source.text, file, symbols, diagnostics, lines: Vec::new(), outputs: Vec::new(), items: Vec::new(), too_deep: false }
     }
 
     pub(crate) fn diagnostics(&mut self) -> &mut Vec<Diagnostic> {
@@ -376,10 +430,13 @@ impl<'a> Context<'a> {
         Box::new(Statement::new(number, outputs, code, (items, inputs), (colon, self.span(start, end))))
     }
 
-    /// Drops what a line that is no statement has left.
-    fn forget(&mut self) {
-        self.outputs.clear();
-        self.items.clear();
+    fn missing_end(&mut self) {
+        let length = self.text.len() as u32;
+        let end = self.span(length, length);
+        self.diagnostics.push(
+            Diagnostic::new(codes::MISSING_END, end, "expected END, found the end of the file")
+                .help("the file may be cut short; if it is whole, add a line END"),
+        );
     }
 
     fn name(&mut self, start: u32, end: u32) -> Name {
@@ -409,26 +466,17 @@ impl<'a> Context<'a> {
         (value.unsigned_abs(), span)
     }
 
-    fn index(&mut self, start: u32, negative: bool, end: u32) -> (i32, Span) {
-        match self.number(start, negative, end) {
+    fn index(&mut self, start: u32, negative: bool, first: u32, end: u32) -> (i32, Span) {
+        match self.number(start, negative, first, end) {
             Number::Int(value) => (value, self.span(start, end)),
             Number::Real(_) => (0, self.span(start, end)),
         }
     }
 
-    fn int(&mut self, start: u32, negative: bool, end: u32) -> Operand {
-        Operand::Number(self.number(start, negative, end))
-    }
-
-    fn real(&mut self, start: u32, negative: bool, end: u32) -> Operand {
-        Operand::Number(self.number(start, negative, end))
-    }
-
-    /// The number under a span that may start with a sign and blanks.
-    fn number(&mut self, start: u32, negative: bool, end: u32) -> Number {
+    /// A number; `first` is where its digits begin, behind a sign and perhaps blanks.
+    fn number(&mut self, start: u32, negative: bool, first: u32, end: u32) -> Number {
         let span = self.span(start, end);
-        let digits = self.text(span).trim_start_matches(['+', '-']).trim_start_matches([' ', '\t', '\r', '\n']);
-        let digits = digits.rsplit(['\n', '\r', ' ', '\t']).next().unwrap_or(digits);
+        let digits = self.text(self.span(first, end));
         if digits.bytes().all(|byte| byte.is_ascii_digit()) {
             let signed = digits.parse::<i64>().ok().map(|value| if negative { -value } else { value });
             return Number::Int(signed.and_then(|value| i32::try_from(value).ok()).unwrap_or_else(|| {
@@ -467,8 +515,14 @@ impl<'a> Context<'a> {
         Expr::Number(Number::Int(0))
     }
 
+    /// Reports a line that cannot be parsed, and drops what the parser has gathered of it.
     fn report(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
+        self.outputs.clear();
+        self.items.clear();
         let (span, found, expected) = match error {
+            ParseError::UnrecognizedToken { token: (start, Token::Newline, _), expected } => {
+                (self.span(start.saturating_sub(1), start), "the end of the line".to_owned(), expected)
+            }
             ParseError::UnrecognizedToken { token: (start, token, end), expected } => {
                 (self.span(start, end), self.describe(token, start, end), expected)
             }
@@ -525,7 +579,7 @@ impl<'a> Context<'a> {
     fn spoil(&mut self, tokens: &[Lexeme], tree: &mut Tree) {
         let first = tokens.first().map(|lexeme| (lexeme.token, self.span(lexeme.start, lexeme.end)));
         if let Some((Token::Key(_), span)) = first {
-            tree.lines.push(Line::UnknownSection(span));
+            self.lines.push(Line::UnknownSection(span));
         }
         for lexeme in tokens {
             let text = self.text(self.span(lexeme.start, lexeme.end));
@@ -582,6 +636,7 @@ fn list(expected: &[String]) -> String {
 
 fn readable(token: &str) -> &str {
     match token.trim_matches('"') {
+        "NEWLINE" => "the end of the line",
         "NAME" => "a name",
         "INT" => "a number",
         "REAL" => "a number",
