@@ -9,6 +9,13 @@
 
 #include "pcl2_map.h"
 
+/* Linkage of a composite's function that has many calls: gcc would study it anew for each. */
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8
+#define PCL2_SHARED static __attribute__((noipa))
+#else
+#define PCL2_SHARED static
+#endif
+
 /* Where a parameter of a function code stands. */
 struct pcl2_place {
     PCL2_OFFSET offset; /* from the instance or from the cold parameters */

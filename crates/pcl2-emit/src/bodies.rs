@@ -15,6 +15,8 @@ use pcl2_lang::program::{Block, BlockId, Param, Source, Unit, UnitId};
 use std::fmt::Write;
 
 const INDENT: &str = "    ";
+/// From so many calls on, inlining a composite is out of the question.
+const MANY_CALLS: usize = 16;
 
 /// Writes all functions of a composite.
 pub(crate) fn functions(out: &mut String, cx: &Context<'_>, statics: &mut Statics, unit: UnitId) {
@@ -79,7 +81,8 @@ fn argument(ty: &TypeExpr, name: &str) -> String {
 fn step_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
     let scope = Scope::of(body.id);
     let used = used_ports(body);
-    let _ = write!(out, "/* {} */\nstatic void {tag}(struct {tag} *self", body.decl.name, tag = body.layout.tag);
+    let linkage = if body.layout.calls >= MANY_CALLS { "PCL2_SHARED" } else { "static" };
+    let _ = write!(out, "/* {} */\n{linkage} void {tag}(struct {tag} *self", body.decl.name, tag = body.layout.tag);
     for (name, ty) in &body.layout.ports {
         let element = kernel::c_scalar(ty.scalar);
         let _ = if ty.is_scalar() { write!(out, ", {element} {name}") } else { write!(out, ", const {element} *{name}") };

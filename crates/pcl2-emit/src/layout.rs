@@ -73,6 +73,8 @@ pub(crate) struct UnitLayout<'a> {
     pub(crate) facts: Facts,
     /// Some block of the program uses it.
     pub(crate) used: bool,
+    /// How many blocks stand for it.
+    pub(crate) calls: usize,
     /// Size and alignment.
     pub(crate) extent: Extent,
 }
@@ -188,6 +190,7 @@ impl<'a, 'c> Builder<'a, 'c> {
             if self.layout.units[unit].used {
                 for inner in self.program.units[unit].blocks.iter().filter_map(|block| block.unit) {
                     self.layout.units[inner.0 as usize].used = true;
+                    self.layout.units[inner.0 as usize].calls += 1;
                 }
             }
         }
@@ -213,8 +216,9 @@ impl<'a, 'c> Builder<'a, 'c> {
         let members = self.members(unit, &stores, &mut namer, |_| WHOLE);
         let (stores, slots) = slots(unit, stores, &mut namer, &members);
         let tag = self.tag(&decl.name);
+        let calls = self.layout.units[index].calls;
         self.layout.units[index] =
-            UnitLayout { tag, members, stores, slots, ports, params, facts, used: true, extent: Extent::default() };
+            UnitLayout { tag, members, stores, slots, ports, params, facts, used: true, calls, extent: Extent::default() };
     }
 
     fn main(&mut self) {

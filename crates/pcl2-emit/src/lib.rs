@@ -33,8 +33,6 @@ mod step;
 mod text;
 mod tune;
 
-#[cfg(test)]
-mod tests;
 
 pub use amalgamate::amalgamate;
 pub use names::program_name;

@@ -1,7 +1,7 @@
 //! Macros of the C library that stand for a value: a member cannot have such a name once its header is included.
 
 /// Those of the standard's headers, and what GNU C and newlib add to `math.h`, `errno.h` and `signal.h`.
-const MACROS: &[&str] = &[
+pub(crate) const MACROS: &[&str] = &[
     "BIG_ENDIAN", "BUFSIZ", "CHAR_BIT", "CHAR_MAX", "CHAR_MIN", "CLK_TCK", "CLOCKS_PER_SEC", "CLOCK_ALLOWED",
     "CLOCK_DISABLED", "CLOCK_DISALLOWED", "CLOCK_ENABLED", "CLOCK_REALTIME", "DBL_DIG", "DBL_EPSILON",
     "DBL_MANT_DIG", "DBL_MAX", "DBL_MAX_10_EXP", "DBL_MAX_EXP", "DBL_MIN", "DBL_MIN_10_EXP", "DBL_MIN_EXP",
@@ -59,13 +59,8 @@ const MACROS: &[&str] = &[
     "xor", "xor_eq",
 ];
 
-/// Whether this is the name of such a macro.
-pub(crate) fn is_macro(name: &str) -> bool {
-    MACROS.binary_search(&name).is_ok() || is_format(name)
-}
-
 /// `PRId32`, `SCNxLEAST16`, ..
-fn is_format(name: &str) -> bool {
+pub(crate) fn is_format(name: &str) -> bool {
     let rest = name.strip_prefix("PRI").or_else(|| name.strip_prefix("SCN"));
     let rest = rest.and_then(|rest| rest.strip_prefix(['d', 'i', 'o', 'u', 'x', 'X']));
     let widths = ["8", "16", "32", "64", "FAST", "LEAST", "MAX", "PTR"];
@@ -79,6 +74,10 @@ mod tests {
     #[test]
     fn the_table_is_sorted() {
         assert!(MACROS.is_sorted());
+    }
+
+    fn is_macro(name: &str) -> bool {
+        MACROS.contains(&name) || is_format(name)
     }
 
     #[test]

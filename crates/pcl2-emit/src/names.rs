@@ -1,8 +1,9 @@
 //! Names that are legal in C: one place that turns what users write into identifiers.
 
-use crate::macros::is_macro;
+use crate::macros::{MACROS, is_format};
 use rustc_hash::FxHashSet;
 use std::borrow::Cow;
+use std::sync::LazyLock;
 
 /// Keywords of C and C++, and what macros or the base types of any C library make unusable as a member.
 const KEYWORDS: &[&str] = &[
@@ -15,7 +16,7 @@ const KEYWORDS: &[&str] = &[
     "int32_t", "int64_t", "int8_t", "interface", "linux", "long", "math_errhandling", "memcpy", "memset", "mips",
     "mutable", "namespace", "near", "new", "noexcept", "noreturn", "not", "not_eq", "nullptr", "offsetof", "operator",
     "or", "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "restrict", "return",
-    "short", "signed", "sizeof", "size_t", "static", "static_assert", "static_cast", "stderr", "stdin", "stdout",
+    "short", "signed", "size_t", "sizeof", "static", "static_assert", "static_cast", "stderr", "stdin", "stdout",
     "struct", "switch", "template", "this", "thread_local", "throw", "true", "try", "typedef", "typeid", "typename",
     "typeof", "typeof_unqual", "uint16_t", "uint32_t", "uint64_t", "uint8_t", "union", "unix", "unsigned", "using",
     "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
@@ -75,8 +76,11 @@ fn is_library(name: &str) -> bool {
     LIBRARY.binary_search(&name).is_ok()
 }
 
-fn is_keyword(name: &str) -> bool {
-    KEYWORDS.binary_search(&name).is_ok()
+/// Names that no member can have.
+static TAKEN: LazyLock<FxHashSet<&str>> = LazyLock::new(|| KEYWORDS.iter().chain(MACROS).copied().collect());
+
+fn is_taken(name: &str) -> bool {
+    TAKEN.contains(name) || is_format(name)
 }
 
 /// A text as a legal member name. `3` becomes `b3` (`prefix` and the number), `FIC.bk` `FIC_bk`, `ain(0,1,1)` `ain_0_1_1`.
@@ -85,7 +89,7 @@ fn legal<'a>(text: &'a str, prefix: &str) -> Cow<'a, str> {
     let named = text.bytes().next().is_some_and(|byte| byte.is_ascii_alphabetic());
     let mut name = if plain && named { Cow::Borrowed(text) } else { Cow::Owned(mapped(text, prefix)) };
     let ours = name.starts_with("pcl2_") || name.starts_with("PCL2_");
-    if is_keyword(&name) || is_macro(&name) || (plain && name.ends_with('_')) || ours {
+    if is_taken(&name) || (plain && name.ends_with('_')) || ours {
         name.to_mut().push('_');
     }
     name

@@ -217,7 +217,7 @@ mod tests {
         }
         real(&mut out, Real { wide: 0.1, narrow: 0.1 }, Width::F32);
         int(&mut out, i32::MIN);
-        assert_eq!(out, "0.1 1e22 -0.0 5e-324 100.0 1e16 0.1f(-2147483647 - 1)");
+        assert_eq!(out, "0.1 1e+22 -0.0 5e-324 100.0 1e+16 0.1f(-2147483647 - 1)");
     }
 
     #[test]
