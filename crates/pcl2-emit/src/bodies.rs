@@ -23,7 +23,8 @@ pub(crate) fn functions(out: &mut String, cx: &Context<'_>, statics: &mut Static
     let Some((decl, _)) = &cx.program.unit(unit).composite else {
         return;
     };
-    let body = Body { cx, id: unit, unit: cx.program.unit(unit), layout: cx.unit_layout(unit), decl: cx.program.decl(*decl) };
+    let body =
+        Body { cx, id: unit, unit: cx.program.unit(unit), layout: cx.unit_layout(unit), decl: cx.program.decl(*decl) };
     if body.layout.facts.checks {
         check_function(out, statics, &body);
     }
@@ -85,7 +86,8 @@ fn step_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
     let _ = write!(out, "/* {} */\n{linkage} void {tag}(struct {tag} *self", body.decl.name, tag = body.layout.tag);
     for (name, ty) in &body.layout.ports {
         let element = kernel::c_scalar(ty.scalar);
-        let _ = if ty.is_scalar() { write!(out, ", {element} {name}") } else { write!(out, ", const {element} *{name}") };
+        let _ =
+            if ty.is_scalar() { write!(out, ", {element} {name}") } else { write!(out, ", const {element} *{name}") };
     }
     let scratch = body.layout.facts.scratch;
     for (declaration, size) in
@@ -284,7 +286,9 @@ fn check_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) 
     }
     args.push("pcl2_real *left".to_owned());
     let mut text = String::new();
-    for (id, block) in body.blocks().filter(|(_, block)| block.params.iter().any(|param| matches!(param, Param::Own(_)))) {
+    for (id, block) in
+        body.blocks().filter(|(_, block)| block.params.iter().any(|param| matches!(param, Param::Own(_))))
+    {
         let call = body.inside(id);
         check::ranges(&mut text, statics, &call);
         if body.has(block, Entry::Check) {

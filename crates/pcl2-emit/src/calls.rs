@@ -64,9 +64,15 @@ fn prepare(out: &mut String, call: &mut Call<'_, '_>, indent: &str) {
         let ty = call.body().signal(*id).ty;
         let first = place(&mut used, ty.scalar, ty.elements());
         call.copies.push((i, first));
-        copy(out, indent, ty, |out| call.scratch_pointer(out, scratch_name(ty.scalar), first), |out| {
-            expr::signal_pointer(out, call.cx, call.scope(), *id);
-        });
+        copy(
+            out,
+            indent,
+            ty,
+            |out| call.scratch_pointer(out, scratch_name(ty.scalar), first),
+            |out| {
+                expr::signal_pointer(out, call.cx, call.scope(), *id);
+            },
+        );
     }
     if call.block().unit.is_none() {
         gather(out, call, &mut used, indent);
@@ -84,13 +90,7 @@ fn place(used: &mut Scratch, scalar: Scalar, elements: usize) -> usize {
 }
 
 /// `memcpy` of all elements of a signal.
-fn copy(
-    out: &mut String,
-    indent: &str,
-    ty: Type,
-    to: impl FnOnce(&mut String),
-    from: impl FnOnce(&mut String),
-) {
+fn copy(out: &mut String, indent: &str, ty: Type, to: impl FnOnce(&mut String), from: impl FnOnce(&mut String)) {
     out.push_str(indent);
     out.push_str("memcpy(");
     to(out);
@@ -126,9 +126,15 @@ fn gather_one(out: &mut String, call: &Call<'_, '_>, source: &Source, ty: Type, 
     }
     match source {
         Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => {
-            copy(out, indent, ty, |out| call.scratch_pointer(out, name, at), |out| {
-                expr::signal_pointer(out, call.cx, call.scope(), *id);
-            });
+            copy(
+                out,
+                indent,
+                ty,
+                |out| call.scratch_pointer(out, name, at),
+                |out| {
+                    expr::signal_pointer(out, call.cx, call.scope(), *id);
+                },
+            );
         }
         Source::Constant(value) => {
             for element in 0..ty.elements() {
@@ -138,9 +144,15 @@ fn gather_one(out: &mut String, call: &Call<'_, '_>, source: &Source, ty: Type, 
             }
         }
         Source::Cell(cell) => {
-            copy(out, indent, ty, |out| call.scratch_pointer(out, name, at), |out| {
-                expr::cell(out, call.cx, call.scope(), *cell);
-            });
+            copy(
+                out,
+                indent,
+                ty,
+                |out| call.scratch_pointer(out, name, at),
+                |out| {
+                    expr::cell(out, call.cx, call.scope(), *cell);
+                },
+            );
         }
     }
 }

@@ -37,7 +37,8 @@ int main(void)
 
 /// Builds the library and the example with plain make.
 pub(crate) fn makefile(name: &str, folders: &[String], sources: &[String]) -> String {
-    let mut out = format!("# Builds lib{name}.a and {name}_example. CC, AR and CFLAGS can be given on the command line.\n");
+    let mut out =
+        format!("# Builds lib{name}.a and {name}_example. CC, AR and CFLAGS can be given on the command line.\n");
     let _ = write!(out, "CFLAGS ?= -O2\nPCL2_FLAGS = -std=c99 -ffp-contract=off -I.");
     for folder in folders {
         let _ = write!(out, " -I{folder}");

@@ -2,8 +2,8 @@
 
 use crate::context::Context;
 use crate::layout::{Store, WHOLE};
-use crate::statics::Statics;
 use crate::shape::{Form, Shape};
+use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::kernel;
 use pcl2_lang::program::{BlockId, CellId, Param, SignalId, Source, UnitId};

@@ -96,7 +96,13 @@ pub(crate) fn has_ranges(decl: &Decl) -> bool {
 }
 
 /// The facts of a body, given those of all declarations and of the bodies after it.
-pub(crate) fn of_body(program: &Program, unit: &Unit, codes: &[Code<'_>], known: &[UnitLayout<'_>], kernels: &[Facts]) -> Facts {
+pub(crate) fn of_body(
+    program: &Program,
+    unit: &Unit,
+    codes: &[Code<'_>],
+    known: &[UnitLayout<'_>],
+    kernels: &[Facts],
+) -> Facts {
     let params = unit.composite.as_ref().map_or(0, |(decl, _)| program.decl(*decl).params.len());
     let none = || vec![false; params];
     let mut facts = Facts { hot: none(), tune: none(), init: none(), check: none(), ..Facts::default() };

@@ -2,8 +2,8 @@
 
 use crate::code::place_elements;
 use crate::context::Context;
-use crate::io;
 use crate::facts::element_scalar;
+use crate::io;
 use crate::layout::{self, Border, WHOLE};
 use crate::shape::{self, Cold, Form, Shape};
 use crate::size;
@@ -27,7 +27,10 @@ pub(crate) fn header(cx: &Context<'_>, layout_hash: u64) -> String {
         let _ = writeln!(out, "#include \"pcl2_{stem}.h\"");
     }
     let _ = writeln!(out, "\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n");
-    let _ = writeln!(out, "/* Names and types of everything in the map; saved values of another layout are merged by name. */");
+    let _ = writeln!(
+        out,
+        "/* Names and types of everything in the map; saved values of another layout are merged by name. */"
+    );
     let _ = writeln!(out, "#define {name}_LAYOUT UINT64_C(0x{layout_hash:016x})\n");
     structs(&mut out, cx);
     instance(&mut out, cx);
@@ -165,7 +168,12 @@ fn part_struct(out: &mut String, cx: &Context<'_>, index: usize) {
     let mut members = String::new();
     run(&mut members, cx, part.first, part.end, index as u32);
     if !members.is_empty() {
-        let _ = writeln!(out, "/* Blocks {}. */\nstruct {} {{\n{members}}};\n", numbers(cx, part.first, part.end), cx.layout.part_tags[index]);
+        let _ = writeln!(
+            out,
+            "/* Blocks {}. */\nstruct {} {{\n{members}}};\n",
+            numbers(cx, part.first, part.end),
+            cx.layout.part_tags[index]
+        );
     }
 }
 
@@ -248,7 +256,10 @@ fn cold(out: &mut String, cx: &Context<'_>) {
         signal(&mut text, name, cell.ty, "        ");
     }
     if !text.is_empty() {
-        let _ = writeln!(out, "\n    /* Parameters that only tune reads, and operator cells. */\n    struct {{\n{text}    }} cold;\n");
+        let _ = writeln!(
+            out,
+            "\n    /* Parameters that only tune reads, and operator cells. */\n    struct {{\n{text}    }} cold;\n"
+        );
     }
 }
 

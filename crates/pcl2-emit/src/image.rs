@@ -159,7 +159,14 @@ fn parameters(out: &mut String, cx: &Context<'_>) {
         let decl = cx.code(block.decl).decl;
         values.clear();
         for (i, field) in cold.params.iter().enumerate().filter_map(|(i, field)| Some((i, (*field)?))) {
-            value(&mut values, cx, &cold.fields[field].name, &decl.params[i].ty, block, resolve(&block.params[i], &|_| None));
+            value(
+                &mut values,
+                cx,
+                &cold.fields[field].name,
+                &decl.params[i].ty,
+                block,
+                resolve(&block.params[i], &|_| None),
+            );
         }
         if !values.is_empty() {
             out.extend(["        .", name, " = {", &values, "},\n"]);

@@ -217,8 +217,18 @@ impl<'a, 'c> Builder<'a, 'c> {
         let (stores, slots) = slots(unit, stores, &mut namer, &members);
         let tag = self.tag(&decl.name);
         let calls = self.layout.units[index].calls;
-        self.layout.units[index] =
-            UnitLayout { tag, members, stores, slots, ports, params, facts, used: true, calls, extent: Extent::default() };
+        self.layout.units[index] = UnitLayout {
+            tag,
+            members,
+            stores,
+            slots,
+            ports,
+            params,
+            facts,
+            used: true,
+            calls,
+            extent: Extent::default(),
+        };
     }
 
     fn main(&mut self) {
@@ -420,7 +430,8 @@ fn port_names(decl: &pcl2_lang::decl::Decl, sizes: &[i32], namer: &mut Namer<'_>
         let ty = pcl2_lang::kernel::resolve(&port.ty, sizes).unwrap_or(Type::REAL);
         let count = pcl2_lang::kernel::count(port.group.as_ref(), sizes).unwrap_or(0);
         for i in 1..=count {
-            let name = if port.group.is_some() { namer.made(&format!("{}_{i}", port.name)) } else { namer.made(&port.name) };
+            let name =
+                if port.group.is_some() { namer.made(&format!("{}_{i}", port.name)) } else { namer.made(&port.name) };
             names.push((name, ty));
         }
     }

@@ -33,7 +33,6 @@ mod step;
 mod text;
 mod tune;
 
-
 pub use amalgamate::amalgamate;
 pub use names::program_name;
 pub use runtime::files as runtime_files;

@@ -284,7 +284,9 @@ fn spelled(decl: Option<&Decl>, expr: &Expr) -> String {
         Expr::Int(value) => value.to_string(),
         Expr::Real(value) => format!("{:?}", value.wide),
         Expr::Size(index) => decl.and_then(|decl| decl.sizes.get(*index)).map_or_else(String::new, |s| s.name.clone()),
-        Expr::Param(index) => decl.and_then(|decl| decl.params.get(*index)).map_or_else(String::new, |p| p.name.clone()),
+        Expr::Param(index) => {
+            decl.and_then(|decl| decl.params.get(*index)).map_or_else(String::new, |p| p.name.clone())
+        }
         Expr::Negate(a) => format!("-{}", spelled(decl, a)),
         Expr::Add(a, b) => both(a, "+", b),
         Expr::Subtract(a, b) => both(a, "-", b),

@@ -43,7 +43,14 @@ impl Rows {
 
 /// Builds the table. `next` is the index in the map of the first parameter.
 pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, mut next: usize, kernels: &[Facts]) -> Rows {
-    let mut builder = Builder { cx, kernels, variants: FxHashMap::default(), recent: FxHashMap::default(), rows: Rows::default(), table: String::new() };
+    let mut builder = Builder {
+        cx,
+        kernels,
+        variants: FxHashMap::default(),
+        recent: FxHashMap::default(),
+        rows: Rows::default(),
+        table: String::new(),
+    };
     for (section, id) in blocks_by_section(cx) {
         let period = cx.program.period.map(|scan| cx.program.sections[section].period(scan, cx.program.substeps));
         let places = tunable_places(cx, id);
@@ -191,7 +198,14 @@ impl Builder<'_, '_> {
         self.code_of(statics, id, key, started, inits)
     }
 
-    fn code_of(&mut self, statics: &mut Statics, id: BlockId, key: Key, started: String, inits: bool) -> (String, bool) {
+    fn code_of(
+        &mut self,
+        statics: &mut Statics,
+        id: BlockId,
+        key: Key,
+        started: String,
+        inits: bool,
+    ) -> (String, bool) {
         let known = self.variants.entry(key.clone()).or_default();
         if let Some((_, name)) = known.starts.iter().find(|(known, _)| *known == started) {
             return (name.clone(), false);

@@ -159,7 +159,8 @@ impl Collector<'_> {
         }
         let place = FILES.iter().find(|(path, _)| path.starts_with("src/") && path.ends_with(&format!("/{name}")));
         if let Some((path, _)) = place {
-            let found = path.strip_prefix("src/").and_then(|path| path.rsplit_once('/')).map_or("", |(folder, _)| folder);
+            let found =
+                path.strip_prefix("src/").and_then(|path| path.rsplit_once('/')).map_or("", |(folder, _)| folder);
             self.packed(found, name);
             self.packed(found, &source_of(name));
             return;

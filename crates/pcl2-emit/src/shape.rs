@@ -111,7 +111,19 @@ pub(crate) fn of_kernel(code: &Code<'_>, block: &Block, key: &Key) -> Shape {
         (1, None) if single => Form::Plain,
         _ => Form::Struct,
     };
-    Shape { decl: key.decl, form, tag: String::new(), declared: false, fields: fields.list, state, params, memory, tuned, outputs, cold: None }
+    Shape {
+        decl: key.decl,
+        form,
+        tag: String::new(),
+        declared: false,
+        fields: fields.list,
+        state,
+        params,
+        memory,
+        tuned,
+        outputs,
+        cold: None,
+    }
 }
 
 fn params_none(params: &[Option<usize>]) -> bool {
@@ -153,7 +165,9 @@ pub(crate) fn cold(code: &Code<'_>, block: &Block, hot: &[bool]) -> Option<Cold>
     let mut fields = Fields::default();
     let params = code.decl.params.iter().enumerate();
     let params = params
-        .map(|(i, param)| if param.fixed || hot[i] { None } else { fields.add(&param.name, &param.ty, 1, &block.sizes) })
+        .map(
+            |(i, param)| if param.fixed || hot[i] { None } else { fields.add(&param.name, &param.ty, 1, &block.sizes) },
+        )
         .collect();
     (!fields.list.is_empty()).then(|| Cold { tag: String::new(), fields: fields.list, params })
 }

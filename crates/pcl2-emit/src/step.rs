@@ -24,14 +24,7 @@ pub(crate) fn function(out: &mut String, cx: &Context<'_>, statics: &mut Statics
     let _ = writeln!(out, "void {name}_step({name} *self)\n{{\n{body}}}\n");
 }
 
-fn due(
-    out: &mut String,
-    body: &mut String,
-    cx: &Context<'_>,
-    statics: &mut Statics,
-    index: usize,
-    section: &Section,
-) {
+fn due(out: &mut String, body: &mut String, cx: &Context<'_>, statics: &mut Statics, index: usize, section: &Section) {
     let substeps = cx.program.substeps;
     match (section.kind, &cx.layout.phases[index]) {
         (SectionKind::Plant, _) if substeps > 1 => {

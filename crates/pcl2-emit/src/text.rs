@@ -150,7 +150,8 @@ fn fold(out: &mut String, statement: &str) {
 fn plain_length(bytes: &[u8]) -> usize {
     let mut last = b' ';
     for (i, byte) in bytes.iter().enumerate() {
-        let plain = matches!(byte, b'#'..=b'~' | b' ') && !matches!((last, *byte), (b' ', b' ') | (_, b'*' | b'/' | b'?'));
+        let plain =
+            matches!(byte, b'#'..=b'~' | b' ') && !matches!((last, *byte), (b' ', b' ') | (_, b'*' | b'/' | b'?'));
         if !plain {
             return i;
         }
@@ -172,7 +173,8 @@ fn fold_rest(out: &mut String, start: usize, statement: &str) {
         quoted = (quoted ^ (byte == b'"' && !skipping)) && !line_end;
         skipping = (skipping || (byte == b'!' && !quoted)) && !line_end;
         let shown = if skipping { b' ' } else { shown(byte) };
-        let splits = (last == b'*' && shown == b'/') || (last == b'/' && shown == b'*') || (last == b'?' && shown == b'?');
+        let splits =
+            (last == b'*' && shown == b'/') || (last == b'/' && shown == b'*') || (last == b'?' && shown == b'?');
         if splits {
             out.push(' ');
         }
