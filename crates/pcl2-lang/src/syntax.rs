@@ -1,7 +1,7 @@
 //! Tokens -> statements: lines are cut, missing parentheses found, then each line is parsed by itself,
 //! so that one mistake never hides the next.
 
-use crate::ast::{Item, Line, Name, Number, Output, Statement};
+use crate::ast::{Item, Line, Name, Number, Operand, Output, Statement};
 use crate::codes;
 use crate::declare::raw::Expr;
 use crate::diagnostic::{self, Diagnostic};
@@ -449,12 +449,17 @@ impl<'a> Context<'a> {
         Name { symbol: self.symbols.intern(text), span }
     }
 
-    fn discard(&mut self, start: u32, end: u32) -> Output {
+    fn place(&mut self, label: Option<Name>, value: Operand, start: u32, end: u32) {
+        let span = self.span(start, end);
+        self.items.push(Item { label: label.map(Box::new), value, span });
+    }
+
+    fn discard(&mut self, start: u32, end: u32) {
         let span = self.span(start, end);
         if end - start > 1 {
             self.diagnostics.push(underscore_name(span, self.text(span)));
         }
-        Output::Discard(span)
+        self.outputs.push(Output::Discard(span));
     }
 
     fn natural(&mut self, start: u32, end: u32) -> (u32, Span) {
