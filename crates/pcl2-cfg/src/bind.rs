@@ -96,15 +96,20 @@ impl<'a> Binder<'_, 'a> {
         let is_behind = |item: &&Item| !matches!(item, Item::Port(port) if port.group.is_some());
         let first = self.decl.items.iter().take_while(is_behind).count();
         let others = first + self.decl.items[first + 1..].iter().filter(|item| !is_optional(item)).count();
-        let constant_behind = self.decl.items[first + 1..].iter().any(|item| {
-            matches!(item, Item::Constant(constant) if self.draft.sizes[constant.size].is_some())
-        });
+        let constant_behind = self.decl.items[first + 1..]
+            .iter()
+            .any(|item| matches!(item, Item::Constant(constant) if self.draft.sizes[constant.size].is_some()));
         let (Some(count), true) = (kernel::count(port.group.as_ref(), &sizes), constant_behind) else {
             return true;
         };
         let found = places.len().saturating_sub(others);
         if found != count {
-            let message = format!("expected {} `{}` of {}, as the constant behind them says, found {found}", count_word(count, "input"), port.name, self.decl.name);
+            let message = format!(
+                "expected {} `{}` of {}, as the constant behind them says, found {found}",
+                count_word(count, "input"),
+                port.name,
+                self.decl.name
+            );
             let at = places.get(first + count.min(found)).map_or(self.draft.statement.colon, |place| place.span);
             self.push(Diagnostic::new(codes::INPUT_COUNT, at, message).help(self.form()));
         }
@@ -144,7 +149,8 @@ impl<'a> Binder<'_, 'a> {
 
     fn label(&mut self, place: &'a Place, labels: &mut Vec<(&'a str, &'a Place)>) {
         let Some(label) = place.label() else {
-            let message = format!("expected a named input after the named ones of {}, found one without a name", self.decl.name);
+            let message =
+                format!("expected a named input after the named ones of {}, found one without a name", self.decl.name);
             self.push(Diagnostic::new(codes::INPUT_COUNT, place.span, message));
             return;
         };
@@ -161,7 +167,8 @@ impl<'a> Binder<'_, 'a> {
         match place {
             Some(place) if place.value == Operand::Number(Number::Int(value)) => {}
             Some(place) => {
-                let message = format!("expected the constant {value} of {}, found {}", self.decl.name, self.show(place));
+                let message =
+                    format!("expected the constant {value} of {}, found {}", self.decl.name, self.show(place));
                 self.push(Diagnostic::new(codes::CONSTANT_NEEDED, place.span, message).help(self.form()));
             }
             None => self.missing(&format!("the constant {value}")),
@@ -173,7 +180,12 @@ impl<'a> Binder<'_, 'a> {
             return self.missing(&format!("the constant `{}`", constant.name));
         };
         let Some(value) = self.integer(place) else {
-            let message = format!("expected an integer for the constant `{}` of {}, found {}", constant.name, self.decl.name, self.show(place));
+            let message = format!(
+                "expected an integer for the constant `{}` of {}, found {}",
+                constant.name,
+                self.decl.name,
+                self.show(place)
+            );
             self.push(Diagnostic::new(codes::CONSTANT_NEEDED, place.span, message).help(self.form()));
             return;
         };
@@ -196,10 +208,13 @@ impl<'a> Binder<'_, 'a> {
         let outputs = decl.outputs.iter().map(|output| (&output.name, output.group.as_ref()));
         for (name, group) in ports.chain(outputs) {
             let count = group.and_then(|group| Some((group, kernel::size(&group.count, &known)?)));
-            let refused = count.and_then(|(group, n)| Some((n, bounds::check_constant(group.bounds.as_ref(), n, &known)?)));
+            let refused =
+                count.and_then(|(group, n)| Some((n, bounds::check_constant(group.bounds.as_ref(), n, &known)?)));
             if let Some((n, expected)) = refused {
                 let message = format!("expected {expected} ports `{name}` of {}, found {n}", decl.name);
-                self.push(Diagnostic::new(codes::OUT_OF_RANGE, self.draft.statement.code.span, message).help(self.form()));
+                self.push(
+                    Diagnostic::new(codes::OUT_OF_RANGE, self.draft.statement.code.span, message).help(self.form()),
+                );
                 return;
             }
         }
@@ -222,7 +237,12 @@ impl<'a> Binder<'_, 'a> {
     fn group(&mut self, port: &PortDecl, next: &mut std::slice::Iter<'a, Place>) {
         let sizes: Vec<i32> = self.draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
         let Some(count) = kernel::count(port.group.as_ref(), &sizes) else {
-            let message = format!("expected 0 to {} ports `{}` of {}, found another number", kernel::MAX_PORTS, port.name, self.decl.name);
+            let message = format!(
+                "expected 0 to {} ports `{}` of {}, found another number",
+                kernel::MAX_PORTS,
+                port.name,
+                self.decl.name
+            );
             self.push(Diagnostic::new(codes::TOO_LARGE, self.draft.statement.code.span, message).help(self.form()));
             return;
         };

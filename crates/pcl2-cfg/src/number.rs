@@ -22,8 +22,12 @@ pub(crate) fn number(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
             None => {
                 if draft.statement.outputs.is_empty() {
                     diagnostics.push(
-                        Diagnostic::new(codes::UNKNOWN_NUMBER, draft.statement.code.span, "expected a number or an output name before `=`, found neither")
-                            .help("a block without a number has a name, so that others can refer to it"),
+                        Diagnostic::new(
+                            codes::UNKNOWN_NUMBER,
+                            draft.statement.code.span,
+                            "expected a number or an output name before `=`, found neither",
+                        )
+                        .help("a block without a number has a name, so that others can refer to it"),
                     );
                     draft.spoiled = true;
                 }
@@ -48,7 +52,8 @@ pub(crate) fn numbered_ports(draft: &Draft<'_>) -> u32 {
         Some(decl) if draft.statement.outputs.is_empty() => {
             let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
             let count = output_count(decl, &sizes);
-            let returns = decl.outputs.iter().filter(|output| output.group.is_none() && output.name == RETURN_PORT).count();
+            let returns =
+                decl.outputs.iter().filter(|output| output.group.is_none() && output.name == RETURN_PORT).count();
             (count - returns) as u32
         }
         _ => 1,

@@ -59,7 +59,9 @@ fn second_writers(scope: &Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
         for writer in wire.writers.iter().filter(|writer| !writer.inout) {
             let section = |writer: &Writer| scope.drafts[writer.block.0 as usize].section;
             match first {
-                Some(known) if section(known) == section(writer) => warn_second(scope, &wire.name, known, writer, diagnostics),
+                Some(known) if section(known) == section(writer) => {
+                    warn_second(scope, &wire.name, known, writer, diagnostics)
+                }
                 Some(_) | None => first = Some(writer),
             }
         }
@@ -107,16 +109,21 @@ fn warn(scope: &Scope<'_>, delay: Delay, free: &mut FreeNumbers, diagnostics: &m
     };
     let writer = &scope.drafts[last.block.0 as usize];
     let operand = reader.sources.iter().position(|source| signal_of(source) == Some(delay.signal));
-    let span = operand.and_then(|i| reader.operands.get(i).copied().flatten()).map_or(reader.statement.span, |p| p.span);
+    let span =
+        operand.and_then(|i| reader.operands.get(i).copied().flatten()).map_or(reader.statement.span, |p| p.span);
     let message = format!(
         "expected `{}` to be written before block {} reads it, found block {} writing it later in the scan: the value is one scan old",
         wire.name, reader.number, writer.number
     );
     let help = match free.above(scope, writer.number, numbered_ports(reader)) {
         Some(number) => format!("number block {} as {number}, and the value is of the same scan", reader.number),
-        None => format!("give block {} a number below {}, and the value is of the same scan", writer.number, reader.number),
+        None => {
+            format!("give block {} a number below {}, and the value is of the same scan", writer.number, reader.number)
+        }
     };
-    let report = Diagnostic::new(codes::AVOIDABLE_DELAY, span, message).label(place_of(scope, last), "it is written here").help(help);
+    let report = Diagnostic::new(codes::AVOIDABLE_DELAY, span, message)
+        .label(place_of(scope, last), "it is written here")
+        .help(help);
     diagnostic::warn(diagnostics, report);
 }
 

@@ -67,7 +67,8 @@ impl<'a> Reader<'_, 'a> {
     fn read(&mut self) -> Vec<Param> {
         let places = self.statement.params();
         let empty = matches!(places, [only] if only.label().is_none() && only.value == Operand::Empty);
-        let positional = if empty { 0 } else { places.iter().position(|p| p.label().is_some()).unwrap_or(places.len()) };
+        let positional =
+            if empty { 0 } else { places.iter().position(|p| p.label().is_some()).unwrap_or(places.len()) };
         let (by_position, named) = places.split_at(positional);
         let named = if empty { &[] } else { named };
         if let Some(params) = self.whole_list_file(by_position, named) {
@@ -126,13 +127,19 @@ impl<'a> Reader<'_, 'a> {
         }
         if let Some(extra) = next.next() {
             let total: usize = decl.params.iter().map(|param| self.elements(param)).sum();
-            let message = format!("expected {} of {}, found {}", count_word(total, "parameter"), decl.name, places.len());
+            let message =
+                format!("expected {} of {}, found {}", count_word(total, "parameter"), decl.name, places.len());
             self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, extra.span, message).help(self.form()));
         }
         params
     }
 
-    fn one_positional(&mut self, index: usize, param: &ParamDecl, next: &mut std::slice::Iter<'_, Place>) -> Option<Param> {
+    fn one_positional(
+        &mut self,
+        index: usize,
+        param: &ParamDecl,
+        next: &mut std::slice::Iter<'_, Place>,
+    ) -> Option<Param> {
         let count = self.elements(param);
         if count == 0 {
             return None;
@@ -206,7 +213,10 @@ impl<'a> Reader<'_, 'a> {
             Some(Value::Ints(values)) => values.get(element).map(|value| Number::Int(*value)),
             Some(Value::Reals(values)) => values.get(element).map(|value| Number::Real(*value)),
             Some(Value::Text(_)) | None => {
-                let message = format!("expected a value for `{}` of {}, which has no default, found nothing", param.name, self.decl.name);
+                let message = format!(
+                    "expected a value for `{}` of {}, which has no default, found nothing",
+                    param.name, self.decl.name
+                );
                 self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, place.span, message).help(self.form()));
                 None
             }
@@ -241,7 +251,8 @@ impl<'a> Reader<'_, 'a> {
 
     fn unknown_choice(&mut self, param: &ParamDecl, text: &str, span: Span) {
         let names = &param.tail.names;
-        let message = format!("expected one of {} for `{}` of {}, found `{text}`", names.join(", "), param.name, self.decl.name);
+        let message =
+            format!("expected one of {} for `{}` of {}, found `{text}`", names.join(", "), param.name, self.decl.name);
         let report = Diagnostic::new(codes::VALUE_KIND, span, message);
         self.diagnostics.push(match suggest::help(text, names.iter().map(String::as_str)) {
             Some(help) => report.help(help),
@@ -258,8 +269,13 @@ impl<'a> Reader<'_, 'a> {
         let text = self.input.symbols.text(name.symbol);
         let index = owner.params.iter().position(|own| own.name == text)?;
         if param.fixed && !owner.params[index].fixed {
-            let message = format!("expected a fixed parameter for `{}` of {}, found `{text}`, which can be tuned", param.name, self.decl.name);
-            self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, place.span, message).help(format!("declare `fixed .. {text}`")));
+            let message = format!(
+                "expected a fixed parameter for `{}` of {}, found `{text}`, which can be tuned",
+                param.name, self.decl.name
+            );
+            self.diagnostics.push(
+                Diagnostic::new(codes::VALUE_KIND, place.span, message).help(format!("declare `fixed .. {text}`")),
+            );
         }
         Some(Param::Own(index as u32))
     }
@@ -267,7 +283,10 @@ impl<'a> Reader<'_, 'a> {
     fn named(&mut self, places: &[Place], params: &mut [Option<Param>]) {
         for place in places {
             let Some(label) = place.label() else {
-                let message = format!("expected a named parameter after the named ones of {}, found one without a name", self.decl.name);
+                let message = format!(
+                    "expected a named parameter after the named ones of {}, found one without a name",
+                    self.decl.name
+                );
                 self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, place.span, message));
                 continue;
             };
@@ -296,7 +315,10 @@ impl<'a> Reader<'_, 'a> {
         }
         let number = self.number(param, place)?;
         let scalar = Type { shape: pcl2_lang::types::Shape::Scalar, scalar: scalar_of(param)? };
-        let value = self.convert(&ParamDecl { ty: TypeExpr::Scalar(scalar.scalar), ..param.clone() }, &[number], &|_| place.span);
+        let value =
+            self.convert(&ParamDecl { ty: TypeExpr::Scalar(scalar.scalar), ..param.clone() }, &[number], &|_| {
+                place.span
+            });
         kernel::resolve(&param.ty, self.sizes).map(|ty| Param::Value(spread(value, ty)))
     }
 
@@ -359,7 +381,11 @@ impl<'a> Reader<'_, 'a> {
             Scalar::Real => {
                 let numbers = numbers.iter().enumerate();
                 let reals: Vec<Real> = numbers.map(|(i, number)| self.real_of(param, *number, span_of(i))).collect();
-                if single { Value::Real(reals.first().copied().unwrap_or(Real::ZERO)) } else { Value::Reals(reals.into()) }
+                if single {
+                    Value::Real(reals.first().copied().unwrap_or(Real::ZERO))
+                } else {
+                    Value::Reals(reals.into())
+                }
             }
         }
     }
@@ -368,7 +394,8 @@ impl<'a> Reader<'_, 'a> {
         match number {
             Number::Int(value) => value,
             Number::Real(value) => {
-                let message = format!("expected an integer for `{}` of {}, found {:?}", param.name, self.decl.name, value.wide);
+                let message =
+                    format!("expected an integer for `{}` of {}, found {:?}", param.name, self.decl.name, value.wide);
                 self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, span, message));
                 0
             }
@@ -381,7 +408,10 @@ impl<'a> Reader<'_, 'a> {
             Number::Real(value) => value,
         };
         if self.input.options.width == Width::F32 && !real.narrow.is_finite() {
-            let message = format!("expected a value that a float can hold for `{}` of {}, found {:?}", param.name, self.decl.name, real.wide);
+            let message = format!(
+                "expected a value that a float can hold for `{}` of {}, found {:?}",
+                param.name, self.decl.name, real.wide
+            );
             self.diagnostics.push(Diagnostic::new(codes::NUMBER_RANGE, span, message));
         }
         real
@@ -397,11 +427,16 @@ impl<'a> Reader<'_, 'a> {
             (None, Some(ty)) if ty.elements() == 0 => Param::Value(Value::Reals(Box::default())),
             (default, _) => {
                 let known = self.diagnostics.last().is_some_and(|last| {
-                    last.is_error() && last.span.start >= self.statement.span.start && last.span.end <= self.statement.span.end
+                    last.is_error()
+                        && last.span.start >= self.statement.span.start
+                        && last.span.end <= self.statement.span.end
                 });
                 if default.is_none() && !known {
                     let at = Span { start: self.statement.span.end.saturating_sub(1), ..self.statement.span };
-                    let message = format!("expected a value for `{}` of {}, which has no default, found none", param.name, decl.name);
+                    let message = format!(
+                        "expected a value for `{}` of {}, which has no default, found none",
+                        param.name, decl.name
+                    );
                     self.diagnostics.push(Diagnostic::new(codes::PARAM_COUNT, at, message).help(self.form()));
                 }
                 Param::Value(Value::Int(0))
@@ -430,7 +465,8 @@ impl<'a> Reader<'_, 'a> {
         let ends = bounds.map(|bounds| [bounds.lower.as_ref(), bounds.upper.as_ref()]);
         for end in ends.into_iter().flatten().flatten() {
             if let Expr::Param(other) = end {
-                report = report.label(self.place_of(*other, 0), format!("`{}` stands here", self.decl.params[*other].name));
+                report =
+                    report.label(self.place_of(*other, 0), format!("`{}` stands here", self.decl.params[*other].name));
             }
         }
         self.diagnostics.push(report);
@@ -440,9 +476,9 @@ impl<'a> Reader<'_, 'a> {
     fn place_of(&self, param: usize, element: usize) -> Span {
         let places = self.statement.params();
         let name = &self.decl.params[param].name;
-        let labelled = places.iter().find(|place| {
-            place.label().is_some_and(|label| self.input.symbols.text(label.symbol) == *name)
-        });
+        let labelled = places
+            .iter()
+            .find(|place| place.label().is_some_and(|label| self.input.symbols.text(label.symbol) == *name));
         let before: usize = self.decl.params[..param].iter().map(|param| self.elements(param)).sum();
         let by_position = places.get(before + element).filter(|place| place.label().is_none());
         labelled.or(by_position).map_or(self.statement.code.span, |place| place.span)

@@ -29,8 +29,12 @@ pub(crate) fn read<'a>(input: &Input<'a>, diagnostics: &mut Vec<Diagnostic>) -> 
                     homeless = true;
                     let start = statement.number.map_or(statement.code.span, |(_, span)| span);
                     diagnostics.push(
-                        Diagnostic::new(codes::SECTION, start, "expected INITIALIZE, PLANT or CONTROL before the first block, found a block")
-                            .help("write CONTROL on a line above it"),
+                        Diagnostic::new(
+                            codes::SECTION,
+                            start,
+                            "expected INITIALIZE, PLANT or CONTROL before the first block, found a block",
+                        )
+                        .help("write CONTROL on a line above it"),
                     );
                 }
                 statements.push((statement, found.len().saturating_sub(1) as u32));
@@ -94,7 +98,9 @@ fn check_repetition(
         let message = match new.0 {
             SectionKind::Initialize => "expected one INITIALIZE, found a second",
             SectionKind::Plant => "expected one PLANT, found a second",
-            SectionKind::Control { .. } => "expected one CONTROL section for each rate, found a second with the same rate",
+            SectionKind::Control { .. } => {
+                "expected one CONTROL section for each rate, found a second with the same rate"
+            }
         };
         let report = Diagnostic::new(codes::SECTION, new.1, message);
         diagnostics.push(report.label(first, "the first one").help("put the blocks into the first one"));
@@ -184,10 +190,14 @@ pub(crate) fn check_contents(sectioned: &Sectioned<'_>, scope: &Scope<'_>, diagn
         let simulated = decl.simulated && *kind != SectionKind::Plant;
         let image = decl.image.is_some() && !matches!(kind, SectionKind::Control { .. });
         if simulated {
-            let message = format!("expected {} in PLANT, where the process is simulated, found it elsewhere", decl.name);
+            let message =
+                format!("expected {} in PLANT, where the process is simulated, found it elsewhere", decl.name);
             diagnostics.push(Diagnostic::new(codes::WRONG_SECTION, draft.statement.code.span, message));
         } else if image {
-            let message = format!("expected {} in CONTROL, which reads and writes the process image, found it elsewhere", decl.name);
+            let message = format!(
+                "expected {} in CONTROL, which reads and writes the process image, found it elsewhere",
+                decl.name
+            );
             diagnostics.push(Diagnostic::new(codes::WRONG_SECTION, draft.statement.code.span, message));
         }
     }

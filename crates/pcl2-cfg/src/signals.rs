@@ -1,8 +1,8 @@
 //! Pass 4: a signal for each output, a source for each port.
 
 use crate::Input;
-use crate::draft::{Draft, Scope, Wire};
 use crate::bind::count_word;
+use crate::draft::{Draft, Scope, Wire};
 use crate::number::{RETURN_PORT, output_count, output_names};
 use pcl2_lang::ast::{Item as Place, Name, Number, Operand, Output};
 use pcl2_lang::codes;
@@ -84,7 +84,12 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
     let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
     let count = output_count(decl, &sizes);
     if let Some(extra) = statement.outputs.get(count) {
-        let message = format!("expected at most {} of {}, found {}", count_word(count, "output"), decl.name, statement.outputs.len());
+        let message = format!(
+            "expected at most {} of {}, found {}",
+            count_word(count, "output"),
+            decl.name,
+            statement.outputs.len()
+        );
         diagnostics.push(Diagnostic::new(codes::OUTPUT_COUNT, extra.span(), message));
         scope.drafts[index].spoiled = true;
         let surplus = statement.outputs[count..].iter().filter_map(|output| match output {
@@ -216,7 +221,8 @@ impl<'a> Wirer<'_, 'a> {
         };
         match &place.value {
             Operand::Empty | Operand::Text(_) => {
-                let message = format!("expected a variable or a block number for input `{}`, found a string", port.name);
+                let message =
+                    format!("expected a variable or a block number for input `{}`, found a string", port.name);
                 self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, place.span, message));
                 None
             }
@@ -226,7 +232,8 @@ impl<'a> Wirer<'_, 'a> {
             Operand::Number(Number::Int(number)) => self.number(port, *number, place.span),
             Operand::Number(Number::Real(_)) => {
                 let text = self.input.sources.text(place.span);
-                let message = format!("expected a variable or a block number for input `{}`, found the real `{text}`", port.name);
+                let message =
+                    format!("expected a variable or a block number for input `{}`, found the real `{text}`", port.name);
                 let help = format!("put the number on a wire: `c = msc ( : {text} )`, and use c here");
                 self.diagnostics.push(Diagnostic::new(codes::REAL_IN_PORT, place.span, message).help(help));
                 None
@@ -351,8 +358,11 @@ impl<'a> Wirer<'_, 'a> {
                 near(number).take_while(|n| !known(n)).any(|n| self.scope.spoiled_numbers.contains(&n))
             });
             if !spoiled {
-                let message = format!("expected a variable or the number of a block for input `{}`, found {number}", port.name);
-                let help = format!("no block has the number {number}; for a constant write `c = msc ( : {number}. )`, and use c here");
+                let message =
+                    format!("expected a variable or the number of a block for input `{}`, found {number}", port.name);
+                let help = format!(
+                    "no block has the number {number}; for a constant write `c = msc ( : {number}. )`, and use c here"
+                );
                 self.diagnostics.push(Diagnostic::new(codes::UNKNOWN_NUMBER, span, message).help(help));
             }
             return None;
@@ -361,7 +371,8 @@ impl<'a> Wirer<'_, 'a> {
         if let Some(Output::Name(name)) = draft.statement.outputs.first() {
             let text = self.input.symbols.text(name.symbol);
             let message = format!("expected the variable `{text}`, found its block's number {number}");
-            let help = format!("did you mean the constant {number}? Then use `c = msc ( : {number}. )`; else write `{text}`");
+            let help =
+                format!("did you mean the constant {number}? Then use `c = msc ( : {number}. )`; else write `{text}`");
             let report = Diagnostic::new(codes::NUMBER_OF_NAMED, span, message);
             diagnostic::warn(self.diagnostics, report.label(name.span, "the block with this number").help(help));
         }

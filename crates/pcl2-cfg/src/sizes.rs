@@ -56,7 +56,8 @@ fn check_total(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
 
 /// The message for a program whose data exceed the limit.
 pub(crate) fn too_large(span: Span) -> Diagnostic {
-    let message = format!("expected a program with at most {MAX_PROGRAM} bytes of variables, parameters and memory, found more");
+    let message =
+        format!("expected a program with at most {MAX_PROGRAM} bytes of variables, parameters and memory, found more");
     Diagnostic::new(codes::TOO_LARGE, span, message)
 }
 
@@ -272,7 +273,13 @@ fn constant_type(value: &pcl2_lang::types::Value) -> Type {
 }
 
 /// All variables and all memory of the block must have a size that can be.
-fn check_fields(scope: &Scope<'_>, index: usize, decl: &Decl, sizes: &[i32], diagnostics: &mut Vec<Diagnostic>) -> bool {
+fn check_fields(
+    scope: &Scope<'_>,
+    index: usize,
+    decl: &Decl,
+    sizes: &[i32],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> bool {
     let fields = decl.memory.iter().chain(&decl.work).chain(&decl.tuned).map(|field| (&field.name, &field.ty));
     let places = decl.outputs.iter().map(|output| (&output.name, &output.ty));
     let params = decl.params.iter().map(|param| (&param.name, &param.ty));
@@ -347,7 +354,11 @@ fn report_unknown_size(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Ve
         return;
     };
     let missing = draft.sizes.iter().position(Option::is_none).map_or("", |i| decl.sizes[i].name.as_str());
-    let message = format!("{}: expected ports that tell the size `{missing}` of {}, found a loop of blocks that wait for each other", draft.title(), decl.name);
+    let message = format!(
+        "{}: expected ports that tell the size `{missing}` of {}, found a loop of blocks that wait for each other",
+        draft.title(),
+        decl.name
+    );
     let report = Diagnostic::new(codes::UNKNOWN_SIZE, draft.statement.code.span, message);
     diagnostics.push(report.help("set one variable of the loop in INITIALIZE, for instance with setmat"));
     spoil(scope, index);
@@ -413,14 +424,22 @@ fn check_port<'a>(
 }
 
 /// The flat place of `a[1]` or `m[1,2]`.
-fn element(scope: &Scope<'_>, id: SignalId, whole: Type, operand: &Operand, diagnostics: &mut Vec<Diagnostic>) -> Option<u32> {
+fn element(
+    scope: &Scope<'_>,
+    id: SignalId,
+    whole: Type,
+    operand: &Operand,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<u32> {
     let Operand::Element(element) = operand else {
         return None;
     };
     let (name, indexes) = &**element;
     let wire = scope.wire(id);
     let mut complain = |span: Span, message: String| {
-        diagnostics.push(Diagnostic::new(codes::INDEX_RANGE, span, message).label(wire.span, format!("`{}` is {whole}", wire.name)));
+        diagnostics.push(
+            Diagnostic::new(codes::INDEX_RANGE, span, message).label(wire.span, format!("`{}` is {whole}", wire.name)),
+        );
     };
     let dimensions: &[u32] = match whole.shape {
         Shape::Scalar => &[],
@@ -430,14 +449,20 @@ fn element(scope: &Scope<'_>, id: SignalId, whole: Type, operand: &Operand, diag
     if dimensions.len() != indexes.len() {
         let message = match dimensions.len() {
             0 => format!("expected `{}` without an index, found one", wire.name),
-            n => format!("expected {n} index{} for `{}`, found {}", if n == 1 { "" } else { "es" }, wire.name, indexes.len()),
+            n => format!(
+                "expected {n} index{} for `{}`, found {}",
+                if n == 1 { "" } else { "es" },
+                wire.name,
+                indexes.len()
+            ),
         };
         complain(name.span, message);
         return None;
     }
     let mut flat = 0;
     for ((index, span), dimension) in indexes.iter().zip(dimensions) {
-        let Some(zero_based) = u32::try_from(*index).ok().and_then(|i| i.checked_sub(1)).filter(|i| i < dimension) else {
+        let Some(zero_based) = u32::try_from(*index).ok().and_then(|i| i.checked_sub(1)).filter(|i| i < dimension)
+        else {
             complain(*span, format!("expected an index from 1 to {dimension}, found {index}"));
             return None;
         };
@@ -488,12 +513,16 @@ fn check_written<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut
         };
         let index = scope.outputs.len();
         scope.outputs.push(id);
-        let want = pcl2_lang::model::output_decl(decl, &sizes, index).and_then(|o| kernel::resolve(&decl.outputs[o].ty, &sizes));
+        let want = pcl2_lang::model::output_decl(decl, &sizes, index)
+            .and_then(|o| kernel::resolve(&decl.outputs[o].ty, &sizes));
         let found = scope.wire(id).ty;
         if let (Some(want), Some(found)) = (want, found.filter(|_| !scope.wire(id).spoiled)) {
             if want != found {
                 let message = format!("expected {want} for the output `{name}` of {}, found {found}", decl.name);
-                diagnostics.push(Diagnostic::new(codes::TYPE_DIFFERS, scope.wire(id).span, message).label(decl.span, "declared here"));
+                diagnostics.push(
+                    Diagnostic::new(codes::TYPE_DIFFERS, scope.wire(id).span, message)
+                        .label(decl.span, "declared here"),
+                );
             }
         }
     }

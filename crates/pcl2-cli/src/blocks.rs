@@ -71,7 +71,13 @@ pub(crate) fn page(decl: &Decl) -> String {
     section(&mut text, "Rules", rules(decl));
     for example in &decl.examples {
         let period = example.period.as_ref().map(|period| format!(", period {period} s")).unwrap_or_default();
-        let _ = writeln!(text, "\nExample (after {} scans{period}: {} = {})", example.after, example.signal, example.values.join(", "));
+        let _ = writeln!(
+            text,
+            "\nExample (after {} scans{period}: {} = {})",
+            example.after,
+            example.signal,
+            example.values.join(", ")
+        );
         for line in example.program.lines().filter(|line| line.trim() != "END") {
             let _ = writeln!(text, "  {}", line.trim_start());
         }
@@ -81,7 +87,8 @@ pub(crate) fn page(decl: &Decl) -> String {
 
 /// `y = first ( u : a, b, x0 )`
 pub(crate) fn signature(decl: &Decl) -> String {
-    let outputs: Vec<String> = decl.outputs.iter().map(|o| if o.group.is_some() { format!("{}..", o.name) } else { o.name.clone() }).collect();
+    let outputs: Vec<String> =
+        decl.outputs.iter().map(|o| if o.group.is_some() { format!("{}..", o.name) } else { o.name.clone() }).collect();
     let items: Vec<String> = decl
         .items
         .iter()
@@ -192,7 +199,9 @@ fn type_text(decl: &Decl, ty: &TypeExpr) -> String {
         TypeExpr::Scalar(Scalar::Int) => "int".to_owned(),
         TypeExpr::Scalar(Scalar::Real) => "real".to_owned(),
         TypeExpr::Vector(scalar, n) => format!("{}[{}]", name(scalar, "vec"), expr_text(decl, n)),
-        TypeExpr::Matrix(scalar, r, c) => format!("{}[{},{}]", name(scalar, "mat"), expr_text(decl, r), expr_text(decl, c)),
+        TypeExpr::Matrix(scalar, r, c) => {
+            format!("{}[{},{}]", name(scalar, "mat"), expr_text(decl, r), expr_text(decl, c))
+        }
         TypeExpr::Text => "text".to_owned(),
         TypeExpr::Time => "time".to_owned(),
     }

@@ -101,7 +101,8 @@ fn delays(program: &Program, text: &mut String) {
     for delay in &program.delays {
         let unit = program.main();
         let (reader, signal) = (unit.block(delay.reader), unit.signal(delay.signal));
-        let same_section = signal.writers.iter().all(|writer| section_of(program, writer.block) == section_of(program, delay.reader));
+        let same_section =
+            signal.writers.iter().all(|writer| section_of(program, writer.block) == section_of(program, delay.reader));
         let why = match (delay.avoidable, same_section) {
             (true, _) => "avoidable",
             (false, true) => "in a loop",
@@ -125,7 +126,8 @@ fn border(program: &Program, text: &mut String) {
     let in_plant = |block: u32| (plant.first..plant.end).contains(&block);
     let (mut to_control, mut to_plant) = (Vec::new(), Vec::new());
     for (index, signal) in unit.signals.iter().enumerate() {
-        let readers = unit.blocks.iter().enumerate().filter(|(_, block)| block.ports.iter().any(|port| reads(port, index)));
+        let readers =
+            unit.blocks.iter().enumerate().filter(|(_, block)| block.ports.iter().any(|port| reads(port, index)));
         let readers: Vec<bool> = readers.map(|(b, _)| in_plant(b as u32)).collect();
         let writers: Vec<bool> = signal.writers.iter().map(|writer| in_plant(writer.block.0)).collect();
         if writers.contains(&true) && readers.contains(&false) {

@@ -136,7 +136,11 @@ impl Reader<'_> {
                     let number = self.number(value).and_then(|text| text.parse::<u32>().ok());
                     let valid = number.filter(|n| (1..=1000).contains(n));
                     if valid.is_none() {
-                        self.complain(&value.span(), "expected substeps from 1 to 1000, found something else".to_owned(), None);
+                        self.complain(
+                            &value.span(),
+                            "expected substeps from 1 to 1000, found something else".to_owned(),
+                            None,
+                        );
                     }
                     config.substeps = valid;
                 }
@@ -178,7 +182,11 @@ impl Reader<'_> {
             match value.get_ref() {
                 DeValue::String(point) => binding.point = point.to_string(),
                 DeValue::Table(table) => self.binding(table, &mut binding),
-                _ => self.complain(&value.span(), "expected a point's name or a table, found something else".to_owned(), None),
+                _ => self.complain(
+                    &value.span(),
+                    "expected a point's name or a table, found something else".to_owned(),
+                    None,
+                ),
             }
             config.io.push(binding);
         }
@@ -218,7 +226,11 @@ impl Reader<'_> {
             if let [low, high] = &list[..] {
                 let pair = [self.real(low)?, self.real(high)?];
                 if pair[0] == pair[1] {
-                    self.complain(&value.span(), "expected two different ends of a range, found equal ones".to_owned(), None);
+                    self.complain(
+                        &value.span(),
+                        "expected two different ends of a range, found equal ones".to_owned(),
+                        None,
+                    );
                 }
                 return Some(pair);
             }

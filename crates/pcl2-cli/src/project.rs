@@ -306,7 +306,8 @@ impl Loader {
         for decl in used.iter().filter(|decl| decl.user && !decl.is_composite()) {
             let file = if decl.inline { format!("{}_inline.h", decl.stem) } else { format!("{}.c", decl.stem) };
             if !self.kernels.iter().any(|(name, _)| *name == file) {
-                let message = format!("expected the C of `{}` in `{file}` beside its declaration, found no such file", decl.name);
+                let message =
+                    format!("expected the C of `{}` in `{file}` beside its declaration, found no such file", decl.name);
                 self.diagnostics.push(Diagnostic::new(codes::MISSING_KERNEL, decl.span, message));
             }
         }

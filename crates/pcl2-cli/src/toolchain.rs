@@ -18,8 +18,20 @@ struct Target {
 }
 
 const TARGETS: [Target; 5] = [
-    Target { name: "cortex-m0", prefix: "arm-none-eabi-", flags: &["-mcpu=cortex-m0", "-mthumb"], small: true, board: None },
-    Target { name: "cortex-m3", prefix: "arm-none-eabi-", flags: &["-mcpu=cortex-m3", "-mthumb"], small: true, board: Some("mps2-an385") },
+    Target {
+        name: "cortex-m0",
+        prefix: "arm-none-eabi-",
+        flags: &["-mcpu=cortex-m0", "-mthumb"],
+        small: true,
+        board: None,
+    },
+    Target {
+        name: "cortex-m3",
+        prefix: "arm-none-eabi-",
+        flags: &["-mcpu=cortex-m3", "-mthumb"],
+        small: true,
+        board: Some("mps2-an385"),
+    },
     Target {
         name: "cortex-m4",
         prefix: "arm-none-eabi-",
@@ -51,10 +63,18 @@ pub(crate) struct Toolchain {
 impl Toolchain {
     /// `$CC` or `cc`.
     pub(crate) fn host() -> Toolchain {
-        let compiler = std::env::var("CC").ok().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| "cc".to_owned());
-        let archiver = std::env::var("AR").ok().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| "ar".to_owned());
+        let compiler =
+            std::env::var("CC").ok().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| "cc".to_owned());
+        let archiver =
+            std::env::var("AR").ok().filter(|text| !text.trim().is_empty()).unwrap_or_else(|| "ar".to_owned());
         let compiler = compiler.split_whitespace().map(str::to_owned).collect();
-        Toolchain { compiler, archiver, sizer: "size".to_owned(), flags: COMMON.map(str::to_owned).to_vec(), board: None }
+        Toolchain {
+            compiler,
+            archiver,
+            sizer: "size".to_owned(),
+            flags: COMMON.map(str::to_owned).to_vec(),
+            board: None,
+        }
     }
 
     /// The cross compiler of a target; `Err` lists the known names.

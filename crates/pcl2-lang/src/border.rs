@@ -1,8 +1,8 @@
 //! Cutting a program at the border between PLANT and CONTROL.
 
 use crate::program::{
-    Block, BlockId, CellId, Delay, ImageId, Program, Role, Section, SectionKind, Signal, SignalId, Source, Unit, UnitId,
-    Writer,
+    Block, BlockId, CellId, Delay, ImageId, Program, Role, Section, SectionKind, Signal, SignalId, Source, Unit,
+    UnitId, Writer,
 };
 
 /// Which blocks of a program are wanted.
@@ -211,7 +211,8 @@ impl<'a> Cutter<'a> {
     }
 
     fn block(&mut self, block: &Block, id: BlockId) -> Block {
-        let outputs: Vec<SignalId> = (0u32..).zip(&block.outputs).map(|(o, signal)| self.output(*signal, id, o)).collect();
+        let outputs: Vec<SignalId> =
+            (0u32..).zip(&block.outputs).map(|(o, signal)| self.output(*signal, id, o)).collect();
         let ports = block.ports.iter().map(|port| self.port(port)).collect();
         let image = block.image.map(|image| self.image(image));
         Block { outputs, ports, image, ..block.clone() }

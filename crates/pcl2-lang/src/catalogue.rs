@@ -89,7 +89,10 @@ impl Catalogue {
     fn add(&mut self, decl: Decl, diagnostics: &mut Vec<Diagnostic>) {
         if let Some(known) = self.by_name.get(&decl.name).map(|index| &self.decls[*index]) {
             let (code, message) = if decl.user && !known.user {
-                (codes::HIDDEN_CODE, format!("`{}` is also a function code of the catalogue; this one is used", decl.name))
+                (
+                    codes::HIDDEN_CODE,
+                    format!("`{}` is also a function code of the catalogue; this one is used", decl.name),
+                )
             } else {
                 (codes::BAD_DECLARATION, format!("expected one declaration of `{}`, found a second", decl.name))
             };

@@ -129,11 +129,15 @@ pub fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     object.insert("severity".into(), diagnostic.severity.word().into());
     object.insert("code".into(), diagnostic.code.name().into());
     object.insert("message".into(), diagnostic.message.clone().into());
-    let labels: Vec<serde_json::Value> = diagnostic.labels.iter().map(|label| {
-        let mut place = place_json(label.span, sources);
-        place.insert("message".into(), label.message.clone().into());
-        place.into()
-    }).collect();
+    let labels: Vec<serde_json::Value> = diagnostic
+        .labels
+        .iter()
+        .map(|label| {
+            let mut place = place_json(label.span, sources);
+            place.insert("message".into(), label.message.clone().into());
+            place.into()
+        })
+        .collect();
     object.insert("labels".into(), labels.into());
     object.insert("help".into(), diagnostic.help.clone().into());
     serde_json::Value::from(object).to_string()

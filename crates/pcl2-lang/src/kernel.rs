@@ -255,9 +255,9 @@ fn argument(decl: &Decl, entry: Entry, arg: Arg) -> String {
     match arg {
         Arg::Instance => format!("struct pcl2_{} *self", decl.name),
         Arg::Size(i) => format!("int32_t {}", decl.sizes[i].name),
-        Arg::Port(i) => decl.ports().nth(i).map_or_else(String::new, |port| {
-            value(&port.ty, &port.name, port.group.is_some())
-        }),
+        Arg::Port(i) => {
+            decl.ports().nth(i).map_or_else(String::new, |port| value(&port.ty, &port.name, port.group.is_some()))
+        }
         Arg::Param(i) => value(&decl.params[i].ty, &decl.params[i].name, false),
         Arg::Memory(i) => field(&decl.memory[i], false),
         Arg::Tuned(i) => field(&decl.tuned[i], entry == Entry::Step),
@@ -309,7 +309,8 @@ pub fn member_type(decl: &Decl, member: Member) -> &'static str {
 /// The generated header `pcl2_<stem>.h` of one declaration file: instance structs and prototypes.
 pub fn header(stem: &str, decls: &[&Decl]) -> String {
     let guard = format!("PCL2_{}_H", stem.to_uppercase());
-    let mut text = format!("/* Instance types and prototypes of blocks/{stem}.fc. */\n#ifndef {guard}\n#define {guard}\n\n");
+    let mut text =
+        format!("/* Instance types and prototypes of blocks/{stem}.fc. */\n#ifndef {guard}\n#define {guard}\n\n");
     text.push_str("#include \"pcl2.h\"\n");
     for decl in decls.iter().filter(|decl| !decl.is_composite()) {
         block_interface(&mut text, decl);

@@ -280,14 +280,10 @@ mod tests {
 
     #[test]
     fn numbers_have_no_sign_and_a_dot_may_end_them() {
-        assert_eq!(tokens("100. -1.5e-3 .5 1e5 7"), [
-            Token::Real,
-            Token::Minus,
-            Token::Real,
-            Token::Real,
-            Token::Real,
-            Token::Int
-        ]);
+        assert_eq!(
+            tokens("100. -1.5e-3 .5 1e5 7"),
+            [Token::Real, Token::Minus, Token::Real, Token::Real, Token::Real, Token::Int]
+        );
         assert_eq!(tokens("1.5.,"), [Token::Real, Token::Dot, Token::Comma]);
     }
 

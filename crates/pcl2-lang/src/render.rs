@@ -44,9 +44,11 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String
         Severity::Warning => cr::Severity::Warning,
     };
     let mut labels = vec![cr::Label::primary(diagnostic.span.file, range(diagnostic.span, sources))];
-    labels.extend(diagnostic.labels.iter().map(|label| {
-        cr::Label::secondary(label.span.file, range(label.span, sources)).with_message(&label.message)
-    }));
+    labels.extend(
+        diagnostic.labels.iter().map(|label| {
+            cr::Label::secondary(label.span.file, range(label.span, sources)).with_message(&label.message)
+        }),
+    );
     let report = cr::Diagnostic::new(severity)
         .with_code(diagnostic.code.name())
         .with_message(&diagnostic.message)

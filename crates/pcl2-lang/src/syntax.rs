@@ -12,11 +12,27 @@ use crate::types::Real;
 use lalrpop_util::ParseError;
 
 lalrpop_util::lalrpop_mod!(
-    #[allow(clippy::all, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, unreachable_pub, unused)]
+    #[allow(
+        clippy::all,
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        missing_docs,
+        unreachable_pub,
+        unused
+    )]
     cfg
 );
 lalrpop_util::lalrpop_mod!(
-    #[allow(clippy::all, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, unreachable_pub, unused)]
+    #[allow(
+        clippy::all,
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        missing_docs,
+        unreachable_pub,
+        unused
+    )]
     fc
 );
 
@@ -317,8 +333,12 @@ impl<'a> Lines<'a> {
 
     fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.push(
-            Diagnostic::new(codes::UNCLOSED, self.span(open), "expected `)`, found the next statement or the end of the file")
-                .help("close this parenthesis"),
+            Diagnostic::new(
+                codes::UNCLOSED,
+                self.span(open),
+                "expected `)`, found the next statement or the end of the file",
+            )
+            .help("close this parenthesis"),
         );
     }
 }
@@ -379,14 +399,22 @@ fn bad_character(character: char, twin: Option<char>, span: Span, source: &Sourc
         c => format!("`{c}`"),
     };
     match twin {
-        Some(' ') => Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found another one ({found})"))
-            .help("type an ordinary blank; any text is free in comments, after `!`"),
-        Some(twin) => {
-            Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected ASCII `{twin}`, found its full-width form ({found})"))
-                .help(format!("type `{twin}` with the input method off"))
+        Some(' ') => {
+            Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found another one ({found})"))
+                .help("type an ordinary blank; any text is free in comments, after `!`")
         }
-        None => Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected a name, a number or punctuation, found {found}"))
-            .help("outside comments only ASCII letters, digits and punctuation have a meaning"),
+        Some(twin) => Diagnostic::new(
+            codes::BAD_CHARACTER,
+            span,
+            format!("expected ASCII `{twin}`, found its full-width form ({found})"),
+        )
+        .help(format!("type `{twin}` with the input method off")),
+        None => Diagnostic::new(
+            codes::BAD_CHARACTER,
+            span,
+            format!("expected a name, a number or punctuation, found {found}"),
+        )
+        .help("outside comments only ASCII letters, digits and punctuation have a meaning"),
     }
 }
 
@@ -397,7 +425,16 @@ impl<'a> Context<'a> {
         symbols: &'a mut Symbols,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Context<'a> {
-        Context { text: &source.text, file, symbols, diagnostics, lines: Vec::new(), outputs: Vec::new(), items: Vec::new(), too_deep: false }
+        Context {
+            text: &source.text,
+            file,
+            symbols,
+            diagnostics,
+            lines: Vec::new(),
+            outputs: Vec::new(),
+            items: Vec::new(),
+            too_deep: false,
+        }
     }
 
     pub(crate) fn diagnostics(&mut self) -> &mut Vec<Diagnostic> {

@@ -55,7 +55,9 @@ fn require(holds: bool, message: impl FnOnce() -> String) -> Check {
 fn verify_sections(program: &Program) -> Check {
     let mut next = 0;
     for section in &program.sections {
-        require(section.first == next && section.end >= section.first, || "sections do not tile the blocks".to_owned())?;
+        require(section.first == next && section.end >= section.first, || {
+            "sections do not tile the blocks".to_owned()
+        })?;
         next = section.end;
         if let SectionKind::Control { every, offset } = section.kind {
             require(every >= 1 && offset < every, || "a section's rate is out of range".to_owned())?;
@@ -160,7 +162,10 @@ fn resolve(ty: &TypeExpr, sizes: &[i32]) -> Result<Type, Defect> {
 
 fn source_type(unit: &Unit, source: &Source) -> Result<Type, Defect> {
     let signal = |id: &SignalId| {
-        unit.signals.get(id.0 as usize).map(|signal| signal.ty).ok_or_else(|| Defect("a signal does not exist".to_owned()))
+        unit.signals
+            .get(id.0 as usize)
+            .map(|signal| signal.ty)
+            .ok_or_else(|| Defect("a signal does not exist".to_owned()))
     };
     match source {
         Source::Signal(id) | Source::Copied(id) => signal(id),

@@ -14,10 +14,8 @@ const NEEDED: [(&str, &str); 6] = [
 ];
 
 /// Libraries without a program of their own: a file that tells, and the package.
-const LIBRARIES: [(&str, &str); 2] = [
-    ("/usr/include/stdio.h", "libc6-dev"),
-    ("/usr/lib/arm-none-eabi/include/stdint.h", "libnewlib-arm-none-eabi"),
-];
+const LIBRARIES: [(&str, &str); 2] =
+    [("/usr/include/stdio.h", "libc6-dev"), ("/usr/lib/arm-none-eabi/include/stdint.h", "libnewlib-arm-none-eabi")];
 
 /// What the benchmarks compare with.
 const PEERS: [(&str, &str); 2] = [("/usr/include/eigen3/Eigen/Core", "libeigen3-dev"), ("/usr/bin/g++", "g++")];

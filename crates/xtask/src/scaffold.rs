@@ -21,7 +21,10 @@ pub(crate) fn new_case(name: &str) -> Result<(), String> {
     check_name(name)?;
     let folder = root().join("tests/cases").join(name);
     create(&folder.join("main.cfg"), "CONTROL\n1 y = msc ( : 1. )\nEND\n")?;
-    create(&folder.join("pcl2.toml"), &format!("[controller]\nname = \"{name}\"\nsource = \"main.cfg\"\nperiod = 0.1\n"))?;
+    create(
+        &folder.join("pcl2.toml"),
+        &format!("[controller]\nname = \"{name}\"\nsource = \"main.cfg\"\nperiod = 0.1\n"),
+    )?;
     create(&folder.join("case.toml"), "steps = 10\n")?;
     say("put beside main.cfg what is expected of it: trace.csv, or `! error: P0203` at the end of a line");
     Ok(())
@@ -30,7 +33,11 @@ pub(crate) fn new_case(name: &str) -> Result<(), String> {
 fn check_name(name: &str) -> Result<(), String> {
     let legal = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
     let starts = name.bytes().next().is_some_and(|byte| byte.is_ascii_alphabetic());
-    if starts && name.bytes().all(legal) { Ok(()) } else { Err(format!("`{name}` is no name: letters, digits and `_`")) }
+    if starts && name.bytes().all(legal) {
+        Ok(())
+    } else {
+        Err(format!("`{name}` is no name: letters, digits and `_`"))
+    }
 }
 
 fn create(path: &Path, text: &str) -> Result<(), String> {

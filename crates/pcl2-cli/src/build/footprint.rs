@@ -55,10 +55,13 @@ impl Footprint {
 fn code_bytes(objects: &[PathBuf], toolchain: &Toolchain) -> Option<u64> {
     let output = toolchain::run(toolchain.size(objects)).ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
-    text.lines().skip(1).map(|line| {
-        let mut columns = line.split_whitespace().map(|column| column.parse::<u64>().ok());
-        Some(columns.next()?? + columns.next()??)
-    }).sum()
+    text.lines()
+        .skip(1)
+        .map(|line| {
+            let mut columns = line.split_whitespace().map(|column| column.parse::<u64>().ok());
+            Some(columns.next()?? + columns.next()??)
+        })
+        .sum()
 }
 
 /// Functions with their stack, and their calls, from gcc's `.ci` files.
@@ -115,7 +118,8 @@ impl Graph {
     /// Functions that are called and not defined, plain ones left out.
     fn outside(&self) -> Vec<String> {
         let called: BTreeSet<&String> = self.calls.values().flatten().collect();
-        let outside = called.into_iter().filter(|name| !self.stack.contains_key(*name) && !PLAIN.contains(&name.as_str()));
+        let outside =
+            called.into_iter().filter(|name| !self.stack.contains_key(*name) && !PLAIN.contains(&name.as_str()));
         outside.filter(|name| *name != "__indirect_call").cloned().collect()
     }
 }

@@ -55,7 +55,9 @@ fn check_together(loaded: &[(Project, Verified)]) -> Result<(), Outcome> {
             return Err(usage(format!("two programs are called `{name}`; give one another `name` in pcl2.toml")));
         }
         if loaded[i].1.program().width != loaded[0].1.program().width {
-            return Err(usage("programs in one folder share a runtime: build f32 and f64 into different folders".to_owned()));
+            return Err(usage(
+                "programs in one folder share a runtime: build f32 and f64 into different folders".to_owned(),
+            ));
         }
     }
     Ok(())
@@ -115,7 +117,13 @@ fn write(path: &Path, text: &str) -> Result<(), String> {
 }
 
 /// Compiles the emitted C in its folder and moves what was asked for to its place.
-fn compile(emit: Emit, folder: &Path, target: &Path, emitted: &Emitted, toolchain: &Toolchain) -> Result<Footprint, Outcome> {
+fn compile(
+    emit: Emit,
+    folder: &Path,
+    target: &Path,
+    emitted: &Emitted,
+    toolchain: &Toolchain,
+) -> Result<Footprint, Outcome> {
     let mut includes: Vec<PathBuf> = emitted.folders.iter().map(|include| folder.join(include)).collect();
     includes.push(folder.to_path_buf());
     let objects = objects(folder, &emitted.sources, &includes, toolchain).map_err(failed)?;
@@ -148,7 +156,12 @@ fn compile(emit: Emit, folder: &Path, target: &Path, emitted: &Emitted, toolchai
     Ok(footprint)
 }
 
-fn objects(folder: &Path, sources: &[String], includes: &[PathBuf], toolchain: &Toolchain) -> Result<Vec<PathBuf>, String> {
+fn objects(
+    folder: &Path,
+    sources: &[String],
+    includes: &[PathBuf],
+    toolchain: &Toolchain,
+) -> Result<Vec<PathBuf>, String> {
     let mut objects = Vec::new();
     for source in sources {
         let object = folder.join(source).with_extension("o");

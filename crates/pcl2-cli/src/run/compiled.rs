@@ -102,12 +102,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Emits, writes and compiles the program with its runner.
-fn build(
-    verified: &Verified,
-    project: &Project,
-    toolchain: &Toolchain,
-    folder: &TempDir,
-) -> Result<PathBuf, Failure> {
+fn build(verified: &Verified, project: &Project, toolchain: &Toolchain, folder: &TempDir) -> Result<PathBuf, Failure> {
     let options =
         pcl2_emit::Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
     let emitted = pcl2_emit::emit(verified, &project.sources, &options);

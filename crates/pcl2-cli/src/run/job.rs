@@ -47,7 +47,14 @@ impl<'a> Job<'a> {
             (true, period) => period,
             (false, _) => None,
         };
-        Ok(Job { names, realtime, events: stimulus::merge(stimulus.events, sets), scans, columns, params: params(names) })
+        Ok(Job {
+            names,
+            realtime,
+            events: stimulus::merge(stimulus.events, sets),
+            scans,
+            columns,
+            params: params(names),
+        })
     }
 
     /// Lines `NAME=VALUE` of the tunable parameters.

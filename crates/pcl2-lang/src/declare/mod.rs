@@ -9,9 +9,9 @@ use crate::decl::{
     ParamDecl, PortDecl, SizeVar, Tail, TypeExpr,
 };
 use crate::diagnostic::Diagnostic;
+use crate::lexer::{DECLARATION_WORDS, Key, Token};
 use crate::source::{FileId, Sources, Span};
 use crate::symbol::Symbols;
-use crate::lexer::{DECLARATION_WORDS, Key, Token};
 use crate::syntax::{Context, Lines, parse_body_line, parse_declaration_line};
 use crate::types::{Real, Scalar, Value};
 use raw::Raw;
@@ -246,7 +246,11 @@ fn declare_item(context: &mut Context<'_>, decl: &Decl, item: &raw::Item) -> Ite
     }
 }
 
-fn declare_group(context: &mut Context<'_>, decl: &Decl, group: Option<&(raw::Expr, Option<raw::Range>)>) -> Option<Group> {
+fn declare_group(
+    context: &mut Context<'_>,
+    decl: &Decl,
+    group: Option<&(raw::Expr, Option<raw::Range>)>,
+) -> Option<Group> {
     let (count, bounds) = group?;
     let count = declare_size(context, decl, count);
     Some(Group { count, bounds: declare_bounds(context, decl, bounds.as_ref()) })
@@ -271,7 +275,11 @@ fn declare_size(context: &mut Context<'_>, decl: &Decl, expr: &raw::Expr) -> Exp
     let before = context.diagnostics().len();
     let size = declare_expr(context, decl, expr);
     if context.diagnostics().len() == before && !is_size(&size) {
-        complain(context, decl.span, "expected a size of integers, constants and sizes of ports, found a parameter or a real in it");
+        complain(
+            context,
+            decl.span,
+            "expected a size of integers, constants and sizes of ports, found a parameter or a real in it",
+        );
     }
     size
 }
@@ -429,8 +437,8 @@ fn start(context: &mut Context<'_>, decl: &mut Decl, names: &[Name]) {
 fn retain(context: &mut Context<'_>, decl: &mut Decl, names: &[Name]) {
     for name in names {
         let text = context.symbol_text(name.symbol).to_owned();
-        let known = decl.outputs.iter().any(|output| output.name == text)
-            || decl.memory.iter().any(|field| field.name == text);
+        let known =
+            decl.outputs.iter().any(|output| output.name == text) || decl.memory.iter().any(|field| field.name == text);
         if !known {
             complain(context, name.span, format!("expected the name of an output or of memory, found `{text}`"));
         }
@@ -542,7 +550,8 @@ fn check(context: &mut Context<'_>, decl: &Decl) {
     for port in decl.ports() {
         let tracked = port.tracks.as_ref();
         let known = tracked.is_none_or(|name| {
-            decl.outputs.iter().any(|output| output.name == *name) || decl.memory.iter().any(|field| field.name == *name)
+            decl.outputs.iter().any(|output| output.name == *name)
+                || decl.memory.iter().any(|field| field.name == *name)
         });
         if !known {
             complain(context, decl.span, format!("expected `{}` to track an output or memory", port.name));
