@@ -361,7 +361,7 @@ impl<'a> Reader<'_, 'a> {
         match files::numbers(text, count) {
             Ok(numbers) => Some(numbers),
             Err(why) => {
-                let message = format!("expected {count} numbers for {what} in `{name}`, found {why}");
+                let message = format!("expected {} for {what} in `{name}`, found {why}", count_word(count, "number"));
                 self.diagnostics.push(Diagnostic::new(codes::PARAM_FILE, place, message));
                 None
             }
@@ -393,9 +393,9 @@ impl<'a> Reader<'_, 'a> {
     fn int_of(&mut self, param: &ParamDecl, number: Number, span: Span) -> i32 {
         match number {
             Number::Int(value) => value,
-            Number::Real(value) => {
-                let message =
-                    format!("expected an integer for `{}` of {}, found {:?}", param.name, self.decl.name, value.wide);
+            Number::Real(_) => {
+                let (name, found) = (&param.name, self.found(span));
+                let message = format!("expected an integer for `{name}` of {}, found {found}", self.decl.name);
                 self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, span, message));
                 0
             }
@@ -455,21 +455,40 @@ impl<'a> Reader<'_, 'a> {
         };
         let param = &self.decl.params[violation.param];
         let element = if param.ty.is_scalar() { String::new() } else { format!("[{}]", violation.element + 1) };
-        let message = format!(
-            "expected `{}{element}` of {} {}, found {}",
-            param.name, self.decl.name, violation.expected, violation.found
-        );
         let span = self.place_of(violation.param, violation.element);
+        let (expected, found) = if self.is_file(span) {
+            ("in its declared range".to_owned(), self.found(span))
+        } else {
+            (violation.expected, violation.found)
+        };
+        let (name, code) = (&param.name, &self.decl.name);
+        let message = format!("expected `{name}{element}` of {code} {expected}, found {found}");
         let mut report = Diagnostic::new(codes::OUT_OF_RANGE, span, message);
         let bounds = param.tail.bounds.as_ref();
         let ends = bounds.map(|bounds| [bounds.lower.as_ref(), bounds.upper.as_ref()]);
         for end in ends.into_iter().flatten().flatten() {
             if let Expr::Param(other) = end {
-                report =
-                    report.label(self.place_of(*other, 0), format!("`{}` stands here", self.decl.params[*other].name));
+                let place = self.place_of(*other, 0);
+                let message = format!("`{}` stands here", self.decl.params[*other].name);
+                report = if place == span { report } else { report.label(place, message) };
             }
         }
         self.diagnostics.push(report);
+    }
+
+    /// A file, or a composite's own parameter, stands for all elements of a parameter.
+    fn is_one_place(&self, place: Option<&Place>) -> bool {
+        place.is_some_and(|place| matches!(place.value, Operand::Text(_) | Operand::Name(_)))
+    }
+
+    fn is_file(&self, span: Span) -> bool {
+        self.input.sources.text(span).starts_with('"')
+    }
+
+    /// What stands in a place. The content of a file is never quoted.
+    fn found(&self, span: Span) -> String {
+        let text = self.input.sources.text(span);
+        if self.is_file(span) { format!("another number in {text}") } else { format!("`{text}`") }
     }
 
     /// Where the value of a parameter stands.
@@ -479,8 +498,14 @@ impl<'a> Reader<'_, 'a> {
         let labelled = places
             .iter()
             .find(|place| place.label().is_some_and(|label| self.input.symbols.text(label.symbol) == *name));
-        let before: usize = self.decl.params[..param].iter().map(|param| self.elements(param)).sum();
-        let by_position = places.get(before + element).filter(|place| place.label().is_none());
+        let mut first = 0;
+        for earlier in &self.decl.params[..param] {
+            first += if self.is_one_place(places.get(first)) { 1 } else { self.elements(earlier) };
+        }
+        let element = if self.is_one_place(places.get(first)) { 0 } else { element };
+        let alone = places.len() == 1 && self.is_one_place(places.first());
+        let by_position = if alone { places.first() } else { places.get(first + element) };
+        let by_position = by_position.filter(|place| place.label().is_none());
         labelled.or(by_position).map_or(self.statement.code.span, |place| place.span)
     }
 

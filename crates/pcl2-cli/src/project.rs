@@ -17,6 +17,7 @@ use pcl2_lang::verify::{Verified, verify};
 use pcl2_sim::clock;
 use rustc_hash::FxHashMap;
 use std::fs;
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -331,7 +332,11 @@ fn read_regular(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     if data.len() > limit {
         return Err(format!("it has {} bytes, more than {limit}", data.len()));
     }
-    fs::read(path).map_err(|error| plain(&error))
+    // Files of the system may block or have no end; their length is 0.
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).map_err(|error| plain(&error))?;
+    file.take(data.len()).read_to_end(&mut bytes).map_err(|error| plain(&error))?;
+    Ok(bytes)
 }
 
 /// An operating system's message in our own words, where it is a common one.
