@@ -1,7 +1,8 @@
 //! Generated programs: N control loops of one lag, one controller and two arithmetic lines.
 
 use super::tools;
-use std::fmt::Write;
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// How the loops are written.
@@ -13,7 +14,7 @@ pub(crate) enum Style {
     Composite,
 }
 
-/// The composite of one loop; see [`loops`].
+/// The composite of one loop.
 const COMPOSITE: &str = "\
 ! One control loop: a lag as plant, the error, a lag as the controller's memory, the controller's output.
 real y, real u = loop ( real w : real a, real b, real c, real d )
@@ -25,31 +26,33 @@ BODY
 END
 ";
 
-/// The text of N loops at one set-point.
-pub(crate) fn loops(count: usize, style: Style) -> String {
-    let mut text = String::from("CONTROL\n1 w = msc ( : 50. )\n");
-    for i in 0..count {
-        let a = 10 + i % 10;
-        let _ = match style {
-            Style::Straight => straight(&mut text, i, a),
-            Style::Composite => writeln!(text, "{} y{i}, u{i} = loop ( w : 0.{a}, 0.2, 0.5, 0.05 )", 2 * i + 2),
-        };
-    }
-    text + "END\n"
-}
-
-fn straight(text: &mut String, i: usize, a: usize) -> std::fmt::Result {
-    let n = 4 * i + 2;
-    writeln!(text, "{n} y{i} = first ( u{i} : 0.{a}, 0.2, )")?;
-    writeln!(text, "{} e{i} = sumII ( 1, w, y{i}, 2 : 1., -1. )", n + 1)?;
-    writeln!(text, "{} i{i} = first ( e{i} : 0.5, 0.05, )", n + 2)?;
-    writeln!(text, "{} u{i} = sumII ( 1, e{i}, i{i}, 2 : 0.8, 1. )", n + 3)
-}
-
-/// Writes `loops.cfg` and the composite into a folder.
+/// Writes `loops.cfg` with N loops at one set-point, and the composite, into a folder. The text is not kept: the peak
+/// memory of this process would count as that of the programs it starts.
 pub(crate) fn write_loops(folder: &Path, count: usize, style: Style) -> Result<PathBuf, String> {
     let source = folder.join("loops.cfg");
-    tools::write(&source, &loops(count, style))?;
+    write_source(&source, count, style).map_err(|error| format!("{}: {error}", source.display()))?;
     tools::write(&folder.join("loop.fc"), COMPOSITE)?;
     Ok(source)
+}
+
+fn write_source(source: &Path, count: usize, style: Style) -> std::io::Result<()> {
+    let mut out = BufWriter::new(File::create(source)?);
+    out.write_all(b"CONTROL\n1 w = msc ( : 50. )\n")?;
+    for i in 0..count {
+        let a = 10 + i % 10;
+        match style {
+            Style::Straight => straight(&mut out, i, a),
+            Style::Composite => writeln!(out, "{} y{i}, u{i} = loop ( w : 0.{a}, 0.2, 0.5, 0.05 )", 2 * i + 2),
+        }?;
+    }
+    out.write_all(b"END\n")?;
+    out.flush()
+}
+
+fn straight(out: &mut impl Write, i: usize, a: usize) -> std::io::Result<()> {
+    let n = 4 * i + 2;
+    writeln!(out, "{n} y{i} = first ( u{i} : 0.{a}, 0.2, )")?;
+    writeln!(out, "{} e{i} = sumII ( 1, w, y{i}, 2 : 1., -1. )", n + 1)?;
+    writeln!(out, "{} i{i} = first ( e{i} : 0.5, 0.05, )", n + 2)?;
+    writeln!(out, "{} u{i} = sumII ( 1, e{i}, i{i}, 2 : 0.8, 1. )", n + 3)
 }
