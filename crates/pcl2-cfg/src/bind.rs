@@ -133,7 +133,9 @@ impl<'a> Binder<'_, 'a> {
                     self.constant(constant, place);
                 }
                 Item::Port(port) if port.group.is_some() => {
-                    self.group(port, &mut next);
+                    if !self.group(port, &mut next) {
+                        return;
+                    }
                     after_group = true;
                 }
                 Item::Port(port) => {
@@ -234,7 +236,8 @@ impl<'a> Binder<'_, 'a> {
         }
     }
 
-    fn group(&mut self, port: &PortDecl, next: &mut std::slice::Iter<'a, Place>) {
+    /// Reads a group of ports. `false`: what follows cannot be told apart from it.
+    fn group(&mut self, port: &PortDecl, next: &mut std::slice::Iter<'a, Place>) -> bool {
         let sizes: Vec<i32> = self.draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
         let Some(count) = kernel::count(port.group.as_ref(), &sizes) else {
             let message = format!(
@@ -244,16 +247,17 @@ impl<'a> Binder<'_, 'a> {
                 self.decl.name
             );
             self.push(Diagnostic::new(codes::TOO_LARGE, self.draft.statement.code.span, message).help(self.form()));
-            return;
+            return false;
         };
         for _ in 0..count {
             let place = next.next();
             if place.is_none() {
                 self.missing(&format!("one of the {count} inputs `{}`", port.name));
-                return;
+                return false;
             }
             self.port(port, place, None);
         }
+        true
     }
 
     fn port(&mut self, port: &PortDecl, by_position: Option<&'a Place>, by_name: Option<&'a Place>) {

@@ -244,13 +244,13 @@ impl<'a> Wirer<'_, 'a> {
     /// An empty port: an operator cell, or the default.
     fn unconnected(&mut self, decl: &Decl, port: &PortDecl, index: u32) -> Option<Source> {
         let default = port.default.clone()?;
-        let sizes: Vec<i32> = self.scope.drafts[self.block].sizes.iter().map(|size| size.unwrap_or(0)).collect();
-        let ty = kernel::resolve(&port.ty, &sizes)?;
-        let value = spread(default, ty);
+        // Pass 5 gives both their full size, when sizes are known.
+        let (ty, value) = (Type::REAL, default);
         if !port.cell || self.scope.owner.is_some() {
             return Some(Source::Constant(value));
         }
         let draft = &self.scope.drafts[self.block];
+        let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
         let tag = draft.outputs.first().map(|id| self.scope.wire(*id).name.clone()).filter(|name| !name.is_empty());
         let tag = tag.unwrap_or_else(|| draft.number.to_string());
         let id = CellId(self.scope.cells.len() as u32);

@@ -2,7 +2,7 @@
 
 use crate::Input;
 use crate::draft::{Draft, Scope};
-use crate::signals::writing_order;
+use crate::signals::{spread, writing_order};
 use pcl2_lang::ast::Operand;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, Expr, PortDecl, TypeExpr};
@@ -10,7 +10,7 @@ use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use pcl2_lang::program::{SignalId, Source};
 use pcl2_lang::source::Span;
-use pcl2_lang::types::{MAX_ELEMENTS, Shape, Type};
+use pcl2_lang::types::{MAX_ELEMENTS, Shape, Type, Value};
 use pcl2_lang::verify::{MAX_PROGRAM, declared_bytes, fits};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
@@ -24,7 +24,8 @@ pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &
     let mut search = Search { ready: order.into(), waiting: FxHashMap::default() };
     search.run(scope, diagnostics);
     while let (Some(i), false) = (search.first_waiting(scope), diagnostic::enough(diagnostics)) {
-        report_unknown_size(scope, i, diagnostics);
+        let help = "set one variable of the loop in INITIALIZE, for instance with setmat";
+        report_unknown_size(scope, i, ("a loop of blocks that wait for each other", help), diagnostics);
         search.wake(scope, i);
         search.run(scope, diagnostics);
     }
@@ -151,6 +152,11 @@ fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>
             None
         }
         Inferred::Waiting(signal) => Some(signal),
+        Inferred::Unwired => {
+            let found = ("no variable at a port with it", "wire one of the ports whose type has this size");
+            report_unknown_size(scope, index, found, diagnostics);
+            None
+        }
         Inferred::Spoiled => {
             spoil(scope, index);
             None
@@ -179,6 +185,8 @@ fn settle_outputs(scope: &mut Scope<'_>, index: usize, decl: &Decl, diagnostics:
 enum Inferred {
     All(Vec<Option<i32>>),
     Waiting(SignalId),
+    /// The ports that would tell are left empty.
+    Unwired,
     Spoiled,
 }
 
@@ -191,7 +199,7 @@ fn infer(scope: &Scope<'_>, decl: &Decl, index: usize) -> Inferred {
     let mut next = 0;
     for port in decl.ports() {
         let count = kernel::count(port.group.as_ref(), &known).unwrap_or(0);
-        let source = draft.sources.get(next);
+        let source = draft.sources.get(next).filter(|_| draft.operands.get(next).is_some_and(Option::is_some));
         next += count;
         let (Some(source), true) = (source, names_unknown(&port.ty, &sizes)) else {
             continue;
@@ -205,7 +213,7 @@ fn infer(scope: &Scope<'_>, decl: &Decl, index: usize) -> Inferred {
     match (sizes.iter().all(Option::is_some), waiting) {
         (true, _) => Inferred::All(sizes),
         (false, Some(signal)) => Inferred::Waiting(signal),
-        (false, None) => Inferred::Spoiled,
+        (false, None) => Inferred::Unwired,
     }
 }
 
@@ -301,7 +309,7 @@ fn check_fields(
 }
 
 fn size_text(ty: &TypeExpr, sizes: &[i32]) -> String {
-    let value = |expr: &Expr| kernel::size(expr, sizes).map_or("an overflow".to_owned(), |n| n.to_string());
+    let value = |expr: &Expr| kernel::size(expr, sizes).map_or("no size".to_owned(), |n| n.to_string());
     match ty {
         TypeExpr::Vector(_, n) => value(n),
         TypeExpr::Matrix(_, r, c) => format!("{} x {}", value(r), value(c)),
@@ -348,19 +356,24 @@ fn spoil(scope: &mut Scope<'_>, index: usize) {
     }
 }
 
-fn report_unknown_size(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+fn report_unknown_size(
+    scope: &mut Scope<'_>,
+    index: usize,
+    (found, help): (&str, &str),
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let draft = &scope.drafts[index];
     let Some(decl) = draft.decl else {
         return;
     };
     let missing = draft.sizes.iter().position(Option::is_none).map_or("", |i| decl.sizes[i].name.as_str());
     let message = format!(
-        "{}: expected ports that tell the size `{missing}` of {}, found a loop of blocks that wait for each other",
+        "{}: expected ports that tell the size `{missing}` of {}, found {found}",
         draft.title(),
         decl.name
     );
     let report = Diagnostic::new(codes::UNKNOWN_SIZE, draft.statement.code.span, message);
-    diagnostics.push(report.help("set one variable of the loop in INITIALIZE, for instance with setmat"));
+    diagnostics.push(report.help(help));
     spoil(scope, index);
 }
 
@@ -397,6 +410,9 @@ fn check_port<'a>(
         return;
     };
     let operand = scope.drafts[index].operands.get(next).copied().flatten();
+    if let (None, Some(default)) = (operand, &port.default) {
+        return fill(scope, &source, (index, next), spread(default.clone(), want), want);
+    }
     let Found::Type(mut found) = source_shape(scope, &source) else {
         return;
     };
@@ -416,10 +432,20 @@ fn check_port<'a>(
             scope.drafts[index].sources[next] = Source::Copied(id);
         }
     }
-    if !fits(found, want) && !matches!(source, Source::Constant(_)) {
+    if !fits(found, want) {
         let report = misfit(input, scope, index, port, (want, found), &source, operand.map(|place| place.span));
         diagnostics.push(report);
         scope.drafts[index].spoiled = true;
+    }
+}
+
+/// An unconnected port takes its default in full size, now that sizes are known.
+fn fill(scope: &mut Scope<'_>, source: &Source, (index, port): (usize, usize), value: Value, ty: Type) {
+    if let Source::Cell(id) = source {
+        let cell = &mut scope.cells[id.0 as usize];
+        (cell.ty, cell.initial) = (ty, value);
+    } else {
+        scope.drafts[index].sources[port] = Source::Constant(value);
     }
 }
 

@@ -119,6 +119,19 @@ pub enum Key {
     Body,
 }
 
+impl Key {
+    /// Whether the word is written in capitals: it begins a line, a section or a clause.
+    pub fn begins_line(self) -> bool {
+        match self {
+            Key::Int | Key::Real | Key::Ivec | Key::Vec | Key::Imat | Key::Mat | Key::Text | Key::Time => false,
+            Key::Inout | Key::Cell | Key::Fixed | Key::From | Key::Above | Key::To | Key::Tracks => false,
+            Key::Initialize | Key::Plant | Key::Control | Key::End | Key::Memory | Key::Work | Key::Tuned => true,
+            Key::Start | Key::Retain | Key::Period | Key::Check | Key::Image | Key::Faults | Key::Bad => true,
+            Key::Inline | Key::Simulated | Key::Operator | Key::Example | Key::After | Key::Body => true,
+        }
+    }
+}
+
 /// The section words: reserved in `.cfg` files.
 pub const SECTION_WORDS: [(&str, Key); 4] =
     [("INITIALIZE", Key::Initialize), ("PLANT", Key::Plant), ("CONTROL", Key::Control), ("END", Key::End)];

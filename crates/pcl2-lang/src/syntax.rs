@@ -314,11 +314,11 @@ impl<'a> Lines<'a> {
     }
 
     /// Whether what follows a newline inside parentheses looks like a new statement:
-    /// `[number] [names] = code (`, `number [names] =`, or a section word.
+    /// `[number] [names] = code (`, `number [names] =`, a section or a clause word.
     fn starts_statement(&self) -> bool {
         let mut ahead = self.lexer.clone().map(|lexeme| lexeme.token).peekable();
-        if let Some(Token::Key(Key::Initialize | Key::Plant | Key::Control | Key::End)) = ahead.peek() {
-            return true;
+        if let Some(Token::Key(key)) = ahead.peek() {
+            return key.begins_line();
         }
         let numbered = ahead.next_if_eq(&Token::Int).is_some();
         while ahead.next_if(|token| matches!(token, Token::Name | Token::Underscore)).is_some() {
@@ -668,6 +668,9 @@ fn list(expected: &[String]) -> String {
     let names_number = words.contains(&"a name") && words.contains(&"a number");
     if names_number {
         words.retain(|word| !matches!(*word, "`+`" | "`-`" | "a string" | "`_`"));
+    }
+    if words.contains(&"a clause word") {
+        words.retain(|word| *word != "a section word");
     }
     match words.as_slice() {
         [] => "the end of the line".to_owned(),

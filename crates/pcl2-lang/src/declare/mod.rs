@@ -9,7 +9,7 @@ use crate::decl::{
     ParamDecl, PortDecl, SizeVar, Tail, TypeExpr,
 };
 use crate::diagnostic::Diagnostic;
-use crate::lexer::{DECLARATION_WORDS, Key, Token};
+use crate::lexer::{Key, Token};
 use crate::source::{FileId, Sources, Span};
 use crate::symbol::Symbols;
 use crate::syntax::{Context, Lines, parse_body_line, parse_declaration_line};
@@ -91,10 +91,7 @@ fn finish(context: &mut Context<'_>, decl: Option<Decl>, sound: &mut usize, decl
 }
 
 fn is_clause_word(token: Token) -> bool {
-    let Token::Key(key) = token else {
-        return false;
-    };
-    DECLARATION_WORDS.iter().any(|(word, known)| *known == key && word.starts_with(|c: char| c.is_ascii_uppercase()))
+    matches!(token, Token::Key(key) if key.begins_line())
 }
 
 /// The name before the parenthesis of a head that could not be read.
@@ -519,8 +516,7 @@ fn body(context: &mut Context<'_>, lines: &mut Lines<'_>) -> Vec<Statement> {
         }
     }
     if !ended {
-        let end = lines.position();
-        let span = context.span(end, end);
+        let span = context.span(u32::MAX, u32::MAX);
         complain(context, span, "expected END after BODY, found the end of the file");
     }
     lines.set_words(false);
