@@ -63,13 +63,7 @@ enum Use {
 }
 
 fn load_for(path: &Path, common: &CommonArgs, purpose: Use) -> Result<Project, Outcome> {
-    let mut loader = Loader {
-        sources: Sources::default(),
-        symbols: Symbols::default(),
-        diagnostics: Vec::new(),
-        kernels: Vec::new(),
-        timings: Vec::new(),
-    };
+    let mut loader = Loader::default();
     let place = loader.place(path);
     let width = common.real.map(crate::args::Real::width).or(place.config.width).unwrap_or_default();
     let period = period(common, &place.config, &mut loader.diagnostics)?;
@@ -133,6 +127,7 @@ struct Place {
     config: Config,
 }
 
+#[derive(Default)]
 struct Loader {
     sources: Sources,
     symbols: Symbols,
@@ -383,13 +378,7 @@ fn read_parameters(name: &str, root: &Path) -> Result<Vec<u8>, String> {
 
 /// The catalogue with the user's blocks of the command line; `None` after printing what is wrong with them.
 pub(crate) fn catalogue(common: &CommonArgs) -> Option<Catalogue> {
-    let mut loader = Loader {
-        sources: Sources::default(),
-        symbols: Symbols::default(),
-        diagnostics: Vec::new(),
-        kernels: Vec::new(),
-        timings: Vec::new(),
-    };
+    let mut loader = Loader::default();
     let place = Place { source: None, root: PathBuf::from("."), stem: String::new(), config: Config::default() };
     let catalogue = loader.catalogue(&place, common);
     let left_out = diagnostic::finish(&mut loader.diagnostics, common.strict);
