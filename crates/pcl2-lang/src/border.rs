@@ -44,12 +44,25 @@ pub fn cut(program: &Program, part: Part) -> Program {
         sections: sections(program, &kept),
         images: cutter.images.iter().map(|id| program.images[id.0 as usize].clone()).collect(),
         delays: cutter.delays(),
-        ..program.clone()
+        period: program.period,
+        width: program.width,
+        decls: program.decls.clone(),
+        substeps: program.substeps,
+        bindings: program.bindings.clone(),
     };
     for block in cut.units.iter_mut().flat_map(|unit| &mut unit.blocks) {
         block.unit = block.unit.map(|id| unit_ids[id.0 as usize]);
     }
     cut
+}
+
+/// Whether this part is the program as it stands, so that nothing need be cut.
+pub fn is_whole(program: &Program, part: Part) -> bool {
+    match part {
+        Part::All => true,
+        Part::Control => program.sections.iter().all(|section| section.kind != SectionKind::Plant),
+        Part::Plant => false,
+    }
 }
 
 fn sides(program: &Program) -> Vec<Side> {

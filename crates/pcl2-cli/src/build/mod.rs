@@ -10,7 +10,7 @@ use crate::project::{self, Project};
 use crate::toolchain::{self, Toolchain};
 use footprint::Footprint;
 use pcl2_emit::{Emitted, Options, amalgamate};
-use pcl2_lang::border::{self, cut};
+use pcl2_lang::border::{self, cut, is_whole};
 use pcl2_lang::verify::{Verified, verify};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -68,25 +68,31 @@ fn one(args: &BuildArgs, project: &Project, verified: &Verified, toolchain: &Too
         Part::Control => border::Part::Control,
         Part::Plant => border::Part::Plant,
     };
-    let cut = verify(cut(verified.program(), part)).map_err(|defect| failed(format!("cut: {defect}")))?;
+    let piece;
+    let cut = if is_whole(verified.program(), part) {
+        verified
+    } else {
+        piece = verify(cut(verified.program(), part)).map_err(|defect| failed(format!("cut: {defect}")))?;
+        &piece
+    };
     let options = Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
     let target = &args.output;
     match args.emit {
         Emit::C => {
-            let emitted = emit_into(target, &cut, project, &options)?;
-            console::out(&summary(verified, &cut, &emitted, args.part, None));
+            let emitted = emit_into(target, cut, project, &options)?;
+            console::out(&summary(verified, cut, &emitted, args.part, None));
         }
         Emit::Amalgamation => {
-            let mut emitted = pcl2_emit::emit(&cut, &project.sources, &options);
+            let mut emitted = pcl2_emit::emit(cut, &project.sources, &options);
             emitted.files = amalgamate(&emitted);
             write_all(target, &emitted.files)?;
-            console::out(&summary(verified, &cut, &emitted, args.part, None));
+            console::out(&summary(verified, cut, &emitted, args.part, None));
         }
         Emit::Obj | Emit::Lib | Emit::Exe => {
             let folder = tempfile::tempdir().map_err(|error| failed(format!("no temporary folder: {error}")))?;
-            let emitted = emit_into(folder.path(), &cut, project, &options)?;
+            let emitted = emit_into(folder.path(), cut, project, &options)?;
             let footprint = compile(args.emit, folder.path(), target, &emitted, toolchain)?;
-            console::out(&summary(verified, &cut, &emitted, args.part, Some(&footprint)));
+            console::out(&summary(verified, cut, &emitted, args.part, Some(&footprint)));
         }
     }
     Ok(())
