@@ -22,7 +22,7 @@ pub(crate) fn function(out: &mut String, cx: &Context<'_>, statics: &mut Statics
         false => writeln!(body, "    memset(self, 0, sizeof *self);"),
     };
     if rows.any() {
-        let _ = writeln!(body, "    pcl2_derive(self, {name}_rows, {});", rows.count());
+        let _ = writeln!(body, "    pcl2_derive(self, &{name}_table);");
     }
     straight(out, &mut body, cx, statics, &rows.tunes, Entry::Tune);
     straight(out, &mut body, cx, statics, &rows.inits, Entry::Init);

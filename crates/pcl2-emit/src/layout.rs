@@ -147,8 +147,10 @@ const RESERVED: &[&str] = &["in", "out", "cold", "health", "scan", "work", "iwor
 const RESERVED_INSIDE: &[&str] = &["T", "cold", "hot", "left", "self", "status", "iwork", "twork", "work"];
 
 /// What stands behind the program's name in names that are always there.
-const RESERVED_TAGS: &[&str] =
-    &["init", "step", "tune", "in", "out", "cold", "map", "points", "rows", "initial", "status", "statuses"];
+const RESERVED_TAGS: &[&str] = &[
+    "init", "step", "tune", "in", "out", "cold", "map", "points", "rows", "marks", "codes", "table", "initial",
+    "status", "statuses",
+];
 
 /// Lays a program out.
 pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>]) -> Layout<'a> {

@@ -34,11 +34,6 @@ impl Rows {
     pub(crate) fn any(&self) -> bool {
         self.count > 0
     }
-
-    /// The number of rows.
-    pub(crate) fn count(&self) -> usize {
-        self.count
-    }
 }
 
 /// Builds the table. `next` is the index in the map of the first parameter.
@@ -50,6 +45,10 @@ pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, mut next: usize, ker
         recent: FxHashMap::default(),
         rows: Rows::default(),
         table: String::new(),
+        marks: String::new(),
+        open_mark: None,
+        codes: String::new(),
+        code_index: FxHashMap::default(),
     };
     for (section, id) in blocks_by_section(cx) {
         let period = cx.program.period.map(|scan| cx.program.sections[section].period(scan, cx.program.substeps));
@@ -66,11 +65,7 @@ pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, mut next: usize, ker
         next += 1;
     }
     if builder.rows.count > 0 {
-        let _ = writeln!(
-            builder.rows.text,
-            "/* Code, instance, cold parameters, index of the first parameter in the map. */\nstatic const struct pcl2_row {}_rows[{}] = {{\n{}}};\n",
-            cx.name, builder.rows.count, builder.table
-        );
+        builder.tables();
     }
     builder.rows
 }
@@ -94,6 +89,9 @@ fn is_point(ty: &TypeExpr, block: &Block) -> bool {
     kernel::resolve(ty, &block.sizes).is_some()
 }
 
+/// As in pcl2_tune.h.
+const MARK: usize = 64;
+
 /// Init adapters of blocks that differ in fixed parameters only; more of them are called directly.
 const MAX_STARTS: usize = 4;
 
@@ -108,10 +106,10 @@ struct Key {
 
 #[derive(Clone, Debug, Default)]
 struct Variant {
-    /// By the fixed parameters that init takes, as literals: the name of the `struct pcl2_code`.
-    starts: Vec<(String, String)>,
+    /// By the fixed parameters that init takes, as literals: the index of the code.
+    starts: Vec<(String, usize)>,
     /// The same without the init adapter, once there are too many of them.
-    bare: Option<String>,
+    bare: Option<usize>,
 }
 
 struct Builder<'c, 'a> {
@@ -122,16 +120,41 @@ struct Builder<'c, 'a> {
     recent: FxHashMap<u32, Recent>,
     rows: Rows,
     table: String,
+    /// The marks, and the index of the first parameter of one whose cold parameters are still to come.
+    marks: String,
+    open_mark: Option<usize>,
+    /// The rows of the table of codes, and the index of each.
+    codes: String,
+    code_index: FxHashMap<String, usize>,
 }
 
 struct Recent {
     block: BlockId,
     period: Option<i64>,
-    code: String,
+    code: usize,
     direct: bool,
 }
 
 impl Builder<'_, '_> {
+    /// Writes the tables behind the adapters.
+    fn tables(&mut self) {
+        self.close_mark(None);
+        let (name, count, out) = (&self.cx.name, self.rows.count, &mut self.rows.text);
+        let codes = self.code_index.len();
+        let _ = writeln!(
+            out,
+            "/* Check, derive, start; the parameters' places and their number; size and alignment of the cold ones. */"
+        );
+        let _ = writeln!(out, "static const struct pcl2_code {name}_codes[{codes}] = {{\n{}}};\n", self.codes);
+        let _ = writeln!(out, "/* Code, instance. */");
+        let _ = writeln!(out, "static const struct pcl2_row {name}_rows[{count}] = {{\n{}}};\n", self.table);
+        let marks = count.div_ceil(MARK);
+        let _ = writeln!(out, "/* Index of the first parameter in the map, next cold parameters. */");
+        let _ = writeln!(out, "static const struct pcl2_mark {name}_marks[{marks}] = {{\n{}}};\n", self.marks);
+        let parts = format!("{name}_rows, {name}_marks, {name}_codes, {count}");
+        let _ = writeln!(out, "static const struct pcl2_table {name}_table = {{{parts}}};\n");
+    }
+
     fn facts(&self, block: &Block) -> &Facts {
         match block.unit {
             Some(inner) => &self.cx.unit_layout(inner).facts,
@@ -155,17 +178,17 @@ impl Builder<'_, '_> {
         let shape = self.cx.layout.units[0].members[id.0 as usize].shape;
         let alike = |recent: &&Recent| recent.period == period && self.same_fixed(recent.block, id);
         let (code, direct) = match self.recent.get(&shape).filter(alike) {
-            Some(recent) => (recent.code.clone(), recent.direct),
+            Some(recent) => (recent.code, recent.direct),
             None => {
                 let (code, direct) = self.look_up(statics, id, period);
-                self.recent.insert(shape, Recent { block: id, period, code: code.clone(), direct });
+                self.recent.insert(shape, Recent { block: id, period, code, direct });
                 (code, direct)
             }
         };
         if direct {
             self.rows.inits.push((id, period));
         }
-        self.row(&code, id, first);
+        self.row(code, id, first);
     }
 
     /// Whether two blocks of one code have the same fixed parameters.
@@ -177,7 +200,7 @@ impl Builder<'_, '_> {
     }
 
     /// The `struct pcl2_code` of a block, and whether its init is called directly.
-    fn look_up(&mut self, statics: &mut Statics, id: BlockId, period: Option<i64>) -> (String, bool) {
+    fn look_up(&mut self, statics: &mut Statics, id: BlockId, period: Option<i64>) -> (usize, bool) {
         let cx = self.cx;
         let block = cx.program.main().block(id);
         let (facts, decl) = (self.facts(block), cx.code(block.decl).decl);
@@ -198,36 +221,31 @@ impl Builder<'_, '_> {
         self.code_of(statics, id, key, started, inits)
     }
 
-    fn code_of(
-        &mut self,
-        statics: &mut Statics,
-        id: BlockId,
-        key: Key,
-        started: String,
-        inits: bool,
-    ) -> (String, bool) {
+    fn code_of(&mut self, statics: &mut Statics, id: BlockId, key: Key, started: String, inits: bool) -> (usize, bool) {
         let known = self.variants.entry(key.clone()).or_default();
         if let Some((_, name)) = known.starts.iter().find(|(known, _)| *known == started) {
-            return (name.clone(), false);
+            return (*name, false);
         }
         let bare = known.starts.len() >= MAX_STARTS;
-        if let Some(name) = known.bare.clone().filter(|_| bare) {
+        if let Some(name) = known.bare.filter(|_| bare) {
             return (name, true);
         }
         let name = self.variant(statics, id, &key, inits && !bare);
         let known = self.variants.entry(key).or_default();
         if bare {
-            known.bare = Some(name.clone());
+            known.bare = Some(name);
         } else {
-            known.starts.push((started, name.clone()));
+            known.starts.push((started, name));
         }
         (name, bare)
     }
 
-    fn row(&mut self, code: &str, id: BlockId, first: usize) {
+    fn row(&mut self, code: usize, id: BlockId, first: usize) {
         let (cx, table) = (self.cx, &mut self.table);
         let form = cx.shape_of(UnitId(0), id).form;
-        table.extend(["    {&", code, ", "]);
+        table.push_str("    {");
+        text::count(table, code);
+        table.push_str(", ");
         if form == Form::Nothing {
             table.push('0');
         } else {
@@ -235,17 +253,35 @@ impl Builder<'_, '_> {
             expr::block(table, cx, Scope::MEMBERS, id);
             table.push(')');
         }
-        match &cx.layout.cold_names[id.0 as usize] {
-            Some(cold) => table.extend([", offsetof(", &cx.name, ", cold.", cold, "), "]),
-            None => table.push_str(", 0, "),
-        }
-        text::count(table, first);
         table.push_str("},\n");
+        self.mark(first, cx.layout.cold_names[id.0 as usize].as_deref());
+    }
+
+    /// Counts a row, and writes what stands before every [`MARK`]-th.
+    fn mark(&mut self, first: usize, cold: Option<&str>) {
+        if self.rows.count % MARK == 0 {
+            self.close_mark(None);
+            self.open_mark = Some(first);
+        }
+        if cold.is_some() {
+            self.close_mark(cold);
+        }
         self.rows.count += 1;
     }
 
+    /// A mark says where the next cold parameters are: those of the first row behind it that has some.
+    fn close_mark(&mut self, cold: Option<&str>) {
+        let Some(first) = self.open_mark.take() else {
+            return;
+        };
+        let _ = match cold {
+            Some(cold) => writeln!(self.marks, "    {{{first}, offsetof({}, cold.{cold})}},", self.cx.name),
+            None => writeln!(self.marks, "    {{{first}, 0}},"),
+        };
+    }
+
     /// The adapters and the `struct pcl2_code` of blocks like this one.
-    fn variant(&mut self, statics: &mut Statics, id: BlockId, key: &Key, init: bool) -> String {
+    fn variant(&mut self, statics: &mut Statics, id: BlockId, key: &Key, init: bool) -> usize {
         let cx = self.cx;
         let block = cx.program.main().block(id);
         let code_name = cx.code(block.decl).decl.name.clone();
@@ -256,8 +292,30 @@ impl Builder<'_, '_> {
         let tune = facts.tunes.then(|| adapter(&mut self.rows.text, statics, &call, &code_name, Entry::Tune));
         let init = init.then(|| adapter(&mut self.rows.text, statics, &call, &code_name, Entry::Init));
         let places = places(&mut self.rows.text, cx, statics, id, &code_name);
-        let code = Code { check, tune, init, places };
-        code_struct(&mut self.rows.text, statics, &code_name, &code)
+        let cold = cx.shape_of(UnitId(0), id).cold.map(|cold| &cx.layout.colds[cold]);
+        let cold = cold.map_or_else(
+            || "0, 0".to_owned(),
+            |cold| {
+                let real = cold.fields.iter().any(|field| field.element == "pcl2_real");
+                format!("sizeof(struct {}), {}", cold.tag, if real { "PCL2_ALIGN_REAL" } else { "PCL2_ALIGN_INT" })
+            },
+        );
+        self.code(&code_name, &Code { check, tune, init, places, cold })
+    }
+
+    /// The index in the table of codes.
+    fn code(&mut self, name: &str, parts: &Code) -> usize {
+        let or_null = |part: &Option<String>| part.clone().unwrap_or_else(|| "NULL".to_owned());
+        let (check, tune, init) = (or_null(&parts.check), or_null(&parts.tune), or_null(&parts.init));
+        let Code { places: (places, count), cold, .. } = parts;
+        let row = format!("    {{{check}, {tune}, {init}, {places}, {count}, {cold}}}, /* {name} */\n");
+        if let Some(index) = self.code_index.get(&row) {
+            return *index;
+        }
+        let index = self.code_index.len();
+        self.codes.push_str(&row);
+        self.code_index.insert(row, index);
+        index
     }
 
     /// An operator cell is a row with one place and no derivation.
@@ -267,19 +325,21 @@ impl Builder<'_, '_> {
         let block = cx.program.main().block(known.block);
         let port = declared_port(cx, block, known.port as usize);
         let key = Key { shape: u32::MAX, period: None, fixed: format!("{} {port} {:?}", block.decl.0, block.sizes) };
-        let name = match self.variants.get(&key).and_then(|variant| variant.starts.first()) {
-            Some((_, name)) => name.clone(),
+        let code = match self.variants.get(&key).and_then(|variant| variant.starts.first()) {
+            Some((_, code)) => *code,
             None => {
-                let name = cell_code(&mut self.rows.text, cx, statics, block, port, known.ty);
-                self.variants.entry(key).or_default().starts.push((String::new(), name.clone()));
-                name
+                let parts = cell_code(&mut self.rows.text, cx, statics, block, port, known.ty);
+                let code = cx.code(block.decl);
+                let index = self.code(&format!("{}.{}", code.decl.name, code.ports[port].name), &parts);
+                self.variants.entry(key).or_default().starts.push((String::new(), index));
+                index
             }
         };
         let member = &cx.layout.cell_names[cell.0 as usize];
-        self.table.extend(["    {&", &name, ", offsetof(", &cx.name, ", cold.", member, "), 0, "]);
-        text::count(&mut self.table, first);
-        self.table.push_str("},\n");
-        self.rows.count += 1;
+        self.table.push_str("    {");
+        text::count(&mut self.table, code);
+        self.table.extend([", offsetof(", &cx.name, ", cold.", member, ")},\n"]);
+        self.mark(first, None);
     }
 }
 
@@ -407,31 +467,11 @@ struct Code {
     tune: Option<String>,
     init: Option<String>,
     places: (String, usize),
+    /// Size and alignment of the cold parameters.
+    cold: String,
 }
 
-fn code_struct(out: &mut String, statics: &mut Statics, code: &str, parts: &Code) -> String {
-    let name = statics.name(&format!("code_{code}"));
-    let or_null = |part: &Option<String>| part.clone().unwrap_or_else(|| "NULL".to_owned());
-    let _ = writeln!(
-        out,
-        "static const struct pcl2_code {name} = {{{}, {}, {}, {}, {}}};\n",
-        or_null(&parts.check),
-        or_null(&parts.tune),
-        or_null(&parts.init),
-        parts.places.0,
-        parts.places.1
-    );
-    name
-}
-
-fn cell_code(
-    out: &mut String,
-    cx: &Context<'_>,
-    statics: &mut Statics,
-    block: &Block,
-    port: usize,
-    ty: Type,
-) -> String {
+fn cell_code(out: &mut String, cx: &Context<'_>, statics: &mut Statics, block: &Block, port: usize, ty: Type) -> Code {
     let code = cx.code(block.decl);
     let (declared, suffix) = (code.ports[port], format!("{}_{}", code.decl.name, code.ports[port].name));
     let mut body = String::new();
@@ -460,5 +500,5 @@ fn cell_code(
     let kind = if ty.scalar == Scalar::Int { "PCL2_INT" } else { "PCL2_REAL" };
     let text = format!("[1] = {{\n    {{0, {}, {kind}, 0}},\n}};\n\n", ty.elements());
     let places = statics.define(out, "static const struct pcl2_place ", &format!("places_{suffix}"), &text);
-    code_struct(out, statics, &suffix, &Code { check, tune: None, init: None, places: (places, 1) })
+    Code { check, tune: None, init: None, places: (places, 1), cold: "0, 0".to_owned() }
 }
