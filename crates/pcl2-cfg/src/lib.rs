@@ -102,7 +102,8 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     }
     let delays = order::delays(&sectioned, &scope, diagnostics);
     let program = seal::seal(input, &sectioned, scope, composites, delays);
-    if verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {
+    // Pass 5 has judged the program's own blocks; composites add theirs.
+    if program.units.len() > 1 && verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {
         let whole = Span { file: input.file, start: 0, end: 0 };
         diagnostics.push(sizes::too_large(program.main().blocks.first().map_or(whole, |block| block.span)));
         return None;
