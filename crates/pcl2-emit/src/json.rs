@@ -10,8 +10,8 @@ use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
 use std::io;
 
-/// Writes the file.
-pub(crate) fn json(cx: &Context<'_>, points: &Points) -> String {
+/// Writes the file; uses the rows up.
+pub(crate) fn json(cx: &Context<'_>, points: &mut Points) -> String {
     let program = cx.program;
     let model = Model {
         name: &cx.name,
@@ -27,7 +27,7 @@ pub(crate) fn json(cx: &Context<'_>, points: &Points) -> String {
         outputs: crossings(cx, false),
         images: images(cx),
     };
-    let mut bytes = Vec::with_capacity(points.arrays.iter().map(String::len).sum::<usize>() + 4096);
+    let mut bytes = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Lines { depth: 0 });
     if model.serialize(&mut serializer).is_err() {
         bytes.clear();
@@ -38,7 +38,7 @@ pub(crate) fn json(cx: &Context<'_>, points: &Points) -> String {
 }
 
 /// Puts the points behind the last key of the object.
-fn append(out: &mut String, points: &Points) {
+fn append(out: &mut String, points: &mut Points) {
     out.truncate(out.trim_end_matches(['\n', '}']).len());
     let kinds: Vec<&str> = points.kinds.iter().map(|kind| kind.json.as_str()).collect();
     let close = |rows: bool| if rows { "\n  ]" } else { "]" };
@@ -48,8 +48,9 @@ fn append(out: &mut String, points: &Points) {
         out.push_str(kind);
     }
     out.push_str(close(!kinds.is_empty()));
-    for (name, rows) in ARRAYS.iter().zip(&points.arrays) {
-        out.extend([",\n  \"", name, "\": [", rows, close(!rows.is_empty())]);
+    for (name, rows) in ARRAYS.iter().zip(&mut points.arrays) {
+        let rows = std::mem::take(rows);
+        out.extend([",\n  \"", name, "\": [", &rows, close(!rows.is_empty())]);
     }
     out.push_str("\n}\n");
 }

@@ -96,10 +96,8 @@ pub fn emit_each(
     let cx = Context::new(program, sources);
     let name = cx.name.clone();
     let mut points = points::points(&cx);
-    take(format!("{name}_map.c"), map::map(&cx, &points));
-    points.rows = String::new();
-    take(format!("{name}.json"), json::json(&cx, &points));
-    points.arrays = Default::default();
+    take(format!("{name}_map.c"), map::map(&cx, &mut points));
+    take(format!("{name}.json"), json::json(&cx, &mut points));
     take(format!("{name}.h"), header::header(&cx, points.hash));
     let points_of_plant = io::io(&cx);
     let runtime = runtime::collect(&cx, &options.known, &options.user_files, points_of_plant.is_some());
@@ -108,7 +106,8 @@ pub fn emit_each(
     take(format!("{name}_example.c"), example::example(&cx));
     let folders = runtime.folders();
     let mut c_files = vec![format!("{name}.c"), format!("{name}_map.c")];
-    c_files.extend(runtime.sources().filter(|path| !included.iter().any(|known| known == path)).map(str::to_owned));
+    let linked = |path: &&str| !included.iter().any(|known| known == path) && !runtime::is_port(path);
+    c_files.extend(runtime.sources().filter(linked).map(str::to_owned));
     if let Some(table) = points_of_plant {
         take(format!("{name}_io.c"), table);
     }

@@ -4,10 +4,10 @@ use crate::context::Context;
 use crate::points::Points;
 use std::fmt::Write;
 
-/// Writes the map.
-pub(crate) fn map(cx: &Context<'_>, points: &Points) -> String {
+/// Writes the map; uses the rows up.
+pub(crate) fn map(cx: &Context<'_>, points: &mut Points) -> String {
     let name = &cx.name;
-    let mut out = String::with_capacity(points.rows.len() + 4096);
+    let mut out = String::new();
     let _ = writeln!(out, "/* Names, places, types and ranges of everything in an instance of {name}. */");
     let _ = writeln!(out, "#include \"{name}.h\"\n\n#include <stddef.h>\n");
     if points.count == 0 {
@@ -20,14 +20,15 @@ pub(crate) fn map(cx: &Context<'_>, points: &Points) -> String {
         let _ = writeln!(out, "    {},", kind.c);
     }
     let _ = writeln!(out, "}};\n\nstatic const struct pcl2_point {name}_points[{}] = {{", points.count);
-    out.push_str(&points.rows);
+    let mut rows = std::mem::take(&mut points.rows);
+    rows.insert_str(0, &out);
     let _ = writeln!(
-        out,
+        rows,
         "}};\n\nconst struct pcl2_map {name}_map = {{\n{}    {}, {name}_points, {name}_kinds,\n}};",
         facts(cx),
         points.count
     );
-    out
+    rows
 }
 
 /// Name, layout, period and size.

@@ -40,6 +40,11 @@ impl Runtime {
     }
 }
 
+/// What belongs to a board port: linked by its user together with the table of points, never by itself.
+pub(crate) fn is_port(path: &str) -> bool {
+    path.starts_with("pcl2/ports/")
+}
+
 /// The folder of a declaration's kernel in the output.
 pub(crate) fn folder(decl: &Decl) -> &str {
     if decl.user { USER } else { &decl.group }

@@ -32,11 +32,11 @@ pub(crate) fn source(cx: &Context<'_>, points: &Points, has_file: &dyn Fn(&str) 
     init::function(&mut body, cx, &mut statics, &table, image);
     step::function(&mut body, cx, &mut statics);
     tune::function(&mut body, cx, &table);
-    let mut out = String::with_capacity(body.len() + 4096);
-    let included = includes(&mut out, cx, offset, has_file);
-    out.push_str(statics.text());
-    out.push_str(&body);
-    (out, included)
+    let mut head = String::new();
+    let included = includes(&mut head, cx, offset, has_file);
+    head.push_str(statics.text());
+    body.insert_str(0, &head);
+    (body, included)
 }
 
 /// The smallest type that holds every offset and every index of the map.
