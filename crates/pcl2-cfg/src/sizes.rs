@@ -367,11 +367,8 @@ fn report_unknown_size(
         return;
     };
     let missing = draft.sizes.iter().position(Option::is_none).map_or("", |i| decl.sizes[i].name.as_str());
-    let message = format!(
-        "{}: expected ports that tell the size `{missing}` of {}, found {found}",
-        draft.title(),
-        decl.name
-    );
+    let message =
+        format!("{}: expected ports that tell the size `{missing}` of {}, found {found}", draft.title(), decl.name);
     let report = Diagnostic::new(codes::UNKNOWN_SIZE, draft.statement.code.span, message);
     diagnostics.push(report.help(help));
     spoil(scope, index);
