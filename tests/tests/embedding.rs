@@ -67,6 +67,10 @@ fn programs_share_one_runtime_folder() {
     check(pcl2().arg("build").args(paths).arg("-o").arg(built.path()));
     let object = built.compile("gcc", &STRICT);
     assert_eq!(compilers::files(object.path(), "o").len(), built.sources().len());
+    check(Command::new("make").arg("-C").arg(built.path()).arg("-s"));
+    for program in ["rates", "long_program", "first_lags"] {
+        check(&mut Command::new(built.path().join(format!("{program}_example"))));
+    }
     let twice =
         run(pcl2().arg("build").args([cases::find("rates").path(), cases::find("rates").path()]).arg("-o").arg("x"));
     assert_eq!(twice.status.code(), Some(2));

@@ -52,3 +52,17 @@ fn wrong_bindings_are_named() {
         assert!(said.contains("P0503") && said.contains(expected), "{line}: {said}");
     }
 }
+
+/// A run has no board: words are values behind the latch, and every engine gives the same.
+#[test]
+fn every_engine_runs_a_bound_program() {
+    let trace = |runner: [&str; 2]| {
+        let project = root().join("tests/projects/points");
+        let bad = ["--set", "ain(0,1,1)=50@0.5", "--set", "ain(0,1,1)=nan@1"];
+        compilers::check(pcl2().arg("run").arg(project).args(["--steps", "4", "--trace", "-"]).args(bad).args(runner))
+    };
+    let embedded = trace(["--engine", "embedded"]);
+    assert!(embedded.contains(",nan,25.0\n"), "the fail-safe value stands in for a bad one:\n{embedded}");
+    assert_eq!(embedded, trace(["--engine", "cc"]));
+    assert_eq!(embedded, trace(["--target", "cortex-m4"]));
+}

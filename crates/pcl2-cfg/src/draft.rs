@@ -152,6 +152,11 @@ impl Draft<'_> {
         self.sizes.iter().copied().collect()
     }
 
+    /// Where its first output stands.
+    pub(crate) fn first_output(&self) -> Span {
+        self.statement.outputs.first().map_or(self.statement.code.span, |output| output.span())
+    }
+
     /// `block 6`
     pub(crate) fn title(&self) -> String {
         format!("block {}", self.number)

@@ -97,6 +97,7 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     let mut composites = Composites::default();
     complete(input, &mut scope, &mut composites, diagnostics);
     sections::check_contents(&sectioned, &scope, diagnostics);
+    sections::check_border(&sectioned, &scope, diagnostics);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return None;
     }

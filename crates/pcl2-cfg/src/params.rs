@@ -30,8 +30,9 @@ pub(crate) fn read<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
             return;
         }
         let before = diagnostics.len();
-        let owner = owner.as_ref().map(|(decl, _)| *decl);
-        let mut reader = Reader { input, owner, decl, sizes: &sizes, statement: draft.statement, diagnostics };
+        let (owner, owner_sizes) = owner.as_ref().map_or((None, &[][..]), |(decl, sizes)| (Some(*decl), sizes));
+        let statement = draft.statement;
+        let mut reader = Reader { input, owner, owner_sizes, decl, sizes: &sizes, statement, diagnostics };
         let params = reader.read();
         if reader.diagnostics.len() == before {
             reader.check_ranges(&params);
@@ -57,6 +58,7 @@ fn image_word(decl: &Decl, params: &[Param]) -> Option<Box<ImageWord>> {
 struct Reader<'r, 'a> {
     input: &'r Input<'a>,
     owner: Option<&'a Decl>,
+    owner_sizes: &'r [i32],
     decl: &'a Decl,
     sizes: &'r [i32],
     statement: &'a Statement,
@@ -277,7 +279,24 @@ impl<'a> Reader<'_, 'a> {
                 Diagnostic::new(codes::VALUE_KIND, place.span, message).help(format!("declare `fixed .. {text}`")),
             );
         }
+        let (found, wanted) = (self.own_type(&owner.params[index]), self.place_type(param));
+        if found != wanted {
+            let message = format!(
+                "expected {wanted} for `{}` of {}, found `{text}`, which is {found}",
+                param.name, self.decl.name
+            );
+            self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, place.span, message));
+        }
         Some(Param::Own(index as u32))
+    }
+
+    /// The type of the composite's own parameter.
+    fn own_type(&self, param: &ParamDecl) -> String {
+        shown(&param.ty, self.owner_sizes)
+    }
+
+    fn place_type(&self, param: &ParamDecl) -> String {
+        shown(&param.ty, self.sizes)
     }
 
     fn named(&mut self, places: &[Place], params: &mut [Option<Param>]) {
@@ -511,6 +530,14 @@ impl<'a> Reader<'_, 'a> {
 
     fn form(&self) -> String {
         format!("the form is {}", form(self.decl))
+    }
+}
+
+/// A parameter's type as messages show it.
+fn shown(ty: &TypeExpr, sizes: &[i32]) -> String {
+    match ty {
+        TypeExpr::Text => "text".to_owned(),
+        _ => kernel::resolve(ty, sizes).map_or_else(|| "of unknown size".to_owned(), |ty| ty.to_string()),
     }
 }
 

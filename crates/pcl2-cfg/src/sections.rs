@@ -178,6 +178,30 @@ fn in_order(sectioned: Sectioned<'_>) -> Sectioned<'_> {
     Sectioned { sections: order.iter().map(|i| sectioned.sections[*i]).collect(), statements: statements.collect() }
 }
 
+/// A variable crosses the border in one direction: PLANT and CONTROL do not both write it.
+pub(crate) fn check_border(sectioned: &Sectioned<'_>, scope: &Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let Some(plant) = sectioned.sections.iter().position(|(kind, _)| *kind == SectionKind::Plant) else {
+        return;
+    };
+    let control = |section: u32| {
+        let kind = sectioned.sections.get(section as usize).map(|(kind, _)| *kind);
+        matches!(kind, Some(SectionKind::Control { .. }))
+    };
+    for wire in scope.wires.iter().filter(|wire| wire.writers.len() > 1 && !wire.spoiled) {
+        let writers = || wire.writers.iter().map(|writer| &scope.drafts[writer.block.0 as usize]);
+        let in_plant = writers().find(|draft| draft.section as usize == plant);
+        let in_control = writers().find(|draft| control(draft.section));
+        if let (Some(in_plant), Some(in_control)) = (in_plant, in_control) {
+            let message = format!("expected `{}` to be written by PLANT or by CONTROL, found both", wire.name);
+            diagnostics.push(
+                Diagnostic::new(codes::BOTH_SIDES, in_control.first_output(), message)
+                    .label(in_plant.first_output(), "PLANT writes it here")
+                    .help("give the controller's part a name of its own: a measurement and a command are two signals"),
+            );
+        }
+    }
+}
+
 /// Blocks that may not stand where they do.
 pub(crate) fn check_contents(sectioned: &Sectioned<'_>, scope: &Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
     for draft in &scope.drafts {

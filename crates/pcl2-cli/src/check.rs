@@ -4,9 +4,10 @@ use crate::args::{CheckArgs, Format};
 use crate::console;
 use crate::outcome::Outcome;
 use crate::project::{self, Project};
+use pcl2_lang::border::{Part, cut};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
-use pcl2_lang::program::{BlockId, Program, SectionKind, Source, Unit};
+use pcl2_lang::program::{BlockId, Program, Role, SectionKind, Unit};
 use pcl2_lang::types::Type;
 use std::fmt::Write;
 
@@ -116,31 +117,16 @@ fn section_of(program: &Program, block: BlockId) -> Option<usize> {
     program.sections.iter().position(|section| (section.first..section.end).contains(&block.0))
 }
 
-/// The signals that cross between PLANT and CONTROL.
+/// The signals that cross between PLANT and CONTROL, as `build` cuts them.
 fn border(program: &Program, text: &mut String) {
-    let plant = program.sections.iter().find(|section| section.kind == SectionKind::Plant);
-    let Some(plant) = plant else {
+    if !program.sections.iter().any(|section| section.kind == SectionKind::Plant) {
         return;
-    };
-    let unit = program.main();
-    let in_plant = |block: u32| (plant.first..plant.end).contains(&block);
-    let (mut to_control, mut to_plant) = (Vec::new(), Vec::new());
-    for (index, signal) in unit.signals.iter().enumerate() {
-        let readers =
-            unit.blocks.iter().enumerate().filter(|(_, block)| block.ports.iter().any(|port| reads(port, index)));
-        let readers: Vec<bool> = readers.map(|(b, _)| in_plant(b as u32)).collect();
-        let writers: Vec<bool> = signal.writers.iter().map(|writer| in_plant(writer.block.0)).collect();
-        if writers.contains(&true) && readers.contains(&false) {
-            to_control.push(signal.name.clone());
-        }
-        if writers.contains(&false) && readers.contains(&true) {
-            to_plant.push(signal.name.clone());
-        }
     }
-    let _ = writeln!(text, "border\n  inputs of the controller: {}", to_control.join(", "));
-    let _ = writeln!(text, "  outputs of the controller: {}", to_plant.join(", "));
-}
-
-fn reads(port: &Source, signal: usize) -> bool {
-    matches!(port, Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) if id.0 as usize == signal)
+    let controller = cut(program, Part::Control);
+    let names = |role: Role| {
+        let signals = controller.main().signals.iter().filter(|signal| signal.role == role);
+        signals.map(|signal| signal.name.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let _ = writeln!(text, "border\n  inputs of the controller: {}", names(Role::Input));
+    let _ = writeln!(text, "  outputs of the controller: {}", names(Role::Output));
 }

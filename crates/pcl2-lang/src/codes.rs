@@ -110,6 +110,8 @@ pub const AVOIDABLE_DELAY: Code = warning("P0301");
 pub const SECOND_WRITER: Code = warning("P0302");
 /// A block that `--plant` names does not exist or cannot move.
 pub const PLANT_LIST: Code = error("P0303");
+/// A variable that PLANT and CONTROL both write.
+pub const BOTH_SIDES: Code = error("P0304");
 
 // P05xx: declarations, configuration and target.
 

@@ -21,18 +21,18 @@
 enum { RLS_OK = 0, RLS_SIGNAL = 1, RLS_COVARIANCE = 2 };
 
 /* Parameters, those of A, those of B, dead time. */
-struct rls_size {
+struct pcl2_rls_size {
     int32_t np, na, nb, d;
 };
 
 /* Where one estimator keeps what. */
-struct rls_state {
+struct pcl2_rls_state {
     int32_t *blind;  /* scans for which phi still holds a stand-in for a bad sample */
     int32_t *status;
     pcl2_real *p, *ys, *us, *phi, *s, *th;
 };
 
-PCL2_INLINE void rls_covariance(int32_t np, pcl2_real p0, pcl2_real *p)
+PCL2_INLINE void pcl2_rls_covariance(int32_t np, pcl2_real p0, pcl2_real *p)
 {
     for (int32_t i = 0; i < np * np; ++i) {
         p[i] = PCL2_R(0.0);
@@ -42,15 +42,15 @@ PCL2_INLINE void rls_covariance(int32_t np, pcl2_real p0, pcl2_real *p)
     }
 }
 
-PCL2_INLINE void rls_start(int32_t np, pcl2_real p0, const pcl2_real *theta0, pcl2_real *p, pcl2_real *th)
+PCL2_INLINE void pcl2_rls_start(int32_t np, pcl2_real p0, const pcl2_real *theta0, pcl2_real *p, pcl2_real *th)
 {
-    rls_covariance(np, p0, p);
+    pcl2_rls_covariance(np, p0, p);
     for (int32_t i = 0; i < np; ++i) {
         th[i] = theta0[i];
     }
 }
 
-PCL2_INLINE void rls_push(int32_t n, pcl2_real *past, pcl2_real x)
+PCL2_INLINE void pcl2_rls_push(int32_t n, pcl2_real *past, pcl2_real x)
 {
     RLS_UNROLL
     for (int32_t i = n - 1; i > 0; --i) {
@@ -62,7 +62,7 @@ PCL2_INLINE void rls_push(int32_t n, pcl2_real *past, pcl2_real x)
 }
 
 /* phi, s = P phi; returns phi's. */
-PCL2_INLINE pcl2_real rls_regressor(struct rls_size z, struct rls_state at)
+PCL2_INLINE pcl2_real pcl2_rls_regressor(struct pcl2_rls_size z, struct pcl2_rls_state at)
 {
     pcl2_real power = PCL2_R(0.0);
     RLS_UNROLL
@@ -87,7 +87,7 @@ PCL2_INLINE pcl2_real rls_regressor(struct rls_size z, struct rls_state at)
 }
 
 /* P = (P - s s' / gain) * growth, theta += s error / gain. */
-PCL2_INLINE void rls_update(struct rls_size z, struct rls_state at, pcl2_real error, pcl2_real inverse,
+PCL2_INLINE void pcl2_rls_update(struct pcl2_rls_size z, struct pcl2_rls_state at, pcl2_real error, pcl2_real inverse,
                             pcl2_real growth)
 {
     RLS_UNROLL
@@ -105,12 +105,12 @@ PCL2_INLINE void rls_update(struct rls_size z, struct rls_state at, pcl2_real er
 
 /* One step on good samples.  Rounding may cost P its positive definiteness (phi's < 0); it then starts
  * again from P0, theta stays. */
-PCL2_INLINE int32_t rls_adapt(struct rls_size z, struct rls_state at, pcl2_real y, pcl2_real lambda,
+PCL2_INLINE int32_t pcl2_rls_adapt(struct pcl2_rls_size z, struct pcl2_rls_state at, pcl2_real y, pcl2_real lambda,
                               pcl2_real p0, pcl2_real pmax)
 {
     /* A larger error is no measurement; far below the largest real, so that no parameter overflows. */
     const pcl2_real limit = (PCL2_REAL_BITS == 32) ? PCL2_R(1e12) : PCL2_R(1e30);
-    const pcl2_real power = rls_regressor(z, at);
+    const pcl2_real power = pcl2_rls_regressor(z, at);
     const pcl2_real inverse = PCL2_R(1.0) / (lambda + power);
     pcl2_real error = at.phi[0] * at.th[0];
     pcl2_real trace = at.p[0];
@@ -124,21 +124,21 @@ PCL2_INLINE int32_t rls_adapt(struct rls_size z, struct rls_state at, pcl2_real 
         return RLS_SIGNAL;
     }
     if (power < PCL2_R(0.0)) {
-        rls_covariance(z.np, p0, at.p);
+        pcl2_rls_covariance(z.np, p0, at.p);
         return RLS_COVARIANCE;
     }
-    rls_update(z, at, error, inverse, (trace > pmax) ? PCL2_R(1.0) : PCL2_R(1.0) / lambda);
+    pcl2_rls_update(z, at, error, inverse, (trace > pmax) ? PCL2_R(1.0) : PCL2_R(1.0) / lambda);
     return RLS_OK;
 }
 
 /* One scan.  A bad sample enters the history as its predecessor, and nothing is learnt until it has left
  * phi again. */
-PCL2_INLINE void rls_scan(struct rls_size z, struct rls_state at, pcl2_real y, pcl2_real u, pcl2_real en,
+PCL2_INLINE void pcl2_rls_scan(struct pcl2_rls_size z, struct pcl2_rls_state at, pcl2_real y, pcl2_real u, pcl2_real en,
                           pcl2_real lambda, pcl2_real p0, pcl2_real pmax)
 {
     const int32_t bad_y = pcl2_is_bad(y);
     const int32_t bad_u = pcl2_is_bad(u);
-    rls_push(z.nb + z.d, at.us, bad_u ? at.us[0] : u);
+    pcl2_rls_push(z.nb + z.d, at.us, bad_u ? at.us[0] : u);
     *at.status = RLS_OK;
     if (bad_y || bad_u) {
         *at.status = RLS_SIGNAL;
@@ -146,9 +146,9 @@ PCL2_INLINE void rls_scan(struct rls_size z, struct rls_state at, pcl2_real y, p
     } else if (*at.blind > 0) {
         *at.blind -= 1;
     } else if (en != PCL2_R(0.0) && !pcl2_is_bad(en)) {
-        *at.status = rls_adapt(z, at, y, lambda, p0, pmax);
+        *at.status = pcl2_rls_adapt(z, at, y, lambda, p0, pmax);
     }
-    rls_push(z.na, at.ys, !bad_y ? y : (z.na > 0) ? at.ys[0] : PCL2_R(0.0));
+    pcl2_rls_push(z.na, at.ys, !bad_y ? y : (z.na > 0) ? at.ys[0] : PCL2_R(0.0));
 }
 
 PCL2_KERNEL void pcl2_rls1_init(struct pcl2_rls1 *self, int32_t np, pcl2_real lambda, pcl2_real P0,
@@ -160,7 +160,7 @@ PCL2_KERNEL void pcl2_rls1_init(struct pcl2_rls1 *self, int32_t np, pcl2_real la
     (void)pmax;
     (void)ys;
     (void)us;
-    rls_start(np, P0, theta0, P, th);
+    pcl2_rls_start(np, P0, theta0, P, th);
 }
 
 PCL2_KERNEL void pcl2_rls1(struct pcl2_rls1 *self, int32_t np, pcl2_real y, pcl2_real u, pcl2_real en,
@@ -168,9 +168,9 @@ PCL2_KERNEL void pcl2_rls1(struct pcl2_rls1 *self, int32_t np, pcl2_real y, pcl2
                            pcl2_real *us, pcl2_real *phi, pcl2_real *s, pcl2_real *th)
 {
     (void)np;
-    const struct rls_size size = {2, 1, 1, 0};
-    const struct rls_state at = {&self->blind, &self->status, P, ys, us, phi, s, th};
-    rls_scan(size, at, y, u, en, lambda, P0, pmax);
+    const struct pcl2_rls_size size = {2, 1, 1, 0};
+    const struct pcl2_rls_state at = {&self->blind, &self->status, P, ys, us, phi, s, th};
+    pcl2_rls_scan(size, at, y, u, en, lambda, P0, pmax);
 }
 
 PCL2_KERNEL void pcl2_rls2_init(struct pcl2_rls2 *self, int32_t np, pcl2_real lambda, pcl2_real P0,
@@ -182,7 +182,7 @@ PCL2_KERNEL void pcl2_rls2_init(struct pcl2_rls2 *self, int32_t np, pcl2_real la
     (void)pmax;
     (void)ys;
     (void)us;
-    rls_start(np, P0, theta0, P, th);
+    pcl2_rls_start(np, P0, theta0, P, th);
 }
 
 PCL2_KERNEL void pcl2_rls2(struct pcl2_rls2 *self, int32_t np, pcl2_real y, pcl2_real u, pcl2_real en,
@@ -190,9 +190,9 @@ PCL2_KERNEL void pcl2_rls2(struct pcl2_rls2 *self, int32_t np, pcl2_real y, pcl2
                            pcl2_real *us, pcl2_real *phi, pcl2_real *s, pcl2_real *th)
 {
     (void)np;
-    const struct rls_size size = {4, 2, 2, 0};
-    const struct rls_state at = {&self->blind, &self->status, P, ys, us, phi, s, th};
-    rls_scan(size, at, y, u, en, lambda, P0, pmax);
+    const struct pcl2_rls_size size = {4, 2, 2, 0};
+    const struct pcl2_rls_state at = {&self->blind, &self->status, P, ys, us, phi, s, th};
+    pcl2_rls_scan(size, at, y, u, en, lambda, P0, pmax);
 }
 
 PCL2_KERNEL void pcl2_rlsn_init(struct pcl2_rlsn *self, int32_t np, int32_t d, int32_t nA, int32_t nB,
@@ -207,7 +207,7 @@ PCL2_KERNEL void pcl2_rlsn_init(struct pcl2_rlsn *self, int32_t np, int32_t d, i
     (void)pmax;
     (void)ys;
     (void)us;
-    rls_start(np, P0, theta0, P, th);
+    pcl2_rls_start(np, P0, theta0, P, th);
 }
 
 PCL2_KERNEL void pcl2_rlsn(struct pcl2_rlsn *self, int32_t np, pcl2_real y, pcl2_real u, pcl2_real en,
@@ -215,9 +215,9 @@ PCL2_KERNEL void pcl2_rlsn(struct pcl2_rlsn *self, int32_t np, pcl2_real y, pcl2
                            pcl2_real lambda, pcl2_real P0, pcl2_real pmax, pcl2_real *P, pcl2_real *ys,
                            pcl2_real *us, pcl2_real *phi, pcl2_real *s, pcl2_real *th)
 {
-    const struct rls_size size = {np, nA - 1, nB, d};
-    const struct rls_state at = {&self->blind, &self->status, P, ys, us, phi, s, th};
-    rls_scan(size, at, y, u, en, lambda, P0, pmax);
+    const struct pcl2_rls_size size = {np, nA - 1, nB, d};
+    const struct pcl2_rls_state at = {&self->blind, &self->status, P, ys, us, phi, s, th};
+    pcl2_rls_scan(size, at, y, u, en, lambda, P0, pmax);
 }
 
 #undef RLS_UNROLL

@@ -5,7 +5,7 @@
 #include "pcl2_math.h"
 
 /* The largest sum of magnitudes in a row. */
-static pcl2_real expm_norm(int32_t n, const pcl2_real *m)
+static pcl2_real pcl2_expm_norm(int32_t n, const pcl2_real *m)
 {
     pcl2_real norm = PCL2_R(0.0);
     for (int32_t i = 0; i < n; i++) {
@@ -18,7 +18,7 @@ static pcl2_real expm_norm(int32_t n, const pcl2_real *m)
     return norm;
 }
 
-static void expm_product(int32_t n, const pcl2_real *a, const pcl2_real *b, pcl2_real *c)
+static void pcl2_expm_product(int32_t n, const pcl2_real *a, const pcl2_real *b, pcl2_real *c)
 {
     for (int32_t i = 0; i < n; i++) {
         for (int32_t j = 0; j < n; j++) {
@@ -32,13 +32,13 @@ static void expm_product(int32_t n, const pcl2_real *a, const pcl2_real *b, pcl2
 }
 
 /* e^m - 1 = m (1 + m/2 (1 + m/3 (..))): p = m (1 + p) / k from the inside out. */
-static void expm_series(int32_t n, const pcl2_real *m, pcl2_real *p, pcl2_real *work)
+static void pcl2_expm_series(int32_t n, const pcl2_real *m, pcl2_real *p, pcl2_real *work)
 {
     for (int32_t i = 0; i < n * n; i++) {
         p[i] = PCL2_R(0.0);
     }
     for (int32_t k = 15; k > 0; k--) {
-        expm_product(n, m, p, work);
+        pcl2_expm_product(n, m, p, work);
         for (int32_t i = 0; i < n * n; i++) {
             p[i] = (m[i] + work[i]) / (pcl2_real)k;
         }
@@ -47,17 +47,17 @@ static void expm_series(int32_t n, const pcl2_real *m, pcl2_real *p, pcl2_real *
 
 void pcl2_expm1m(int32_t n, pcl2_real *m, pcl2_real *p, pcl2_real *work)
 {
-    const int32_t exponent = pcl2_exponent(expm_norm(n, m)) + 2;
+    const int32_t exponent = pcl2_exponent(pcl2_expm_norm(n, m)) + 2;
     const int32_t squarings = exponent > 0 ? exponent : 0;
     for (int32_t i = 0; i < n * n; i++) {
         for (int32_t s = 0; s < squarings; s++) {
             m[i] *= PCL2_R(0.5);
         }
     }
-    expm_series(n, m, p, work);
+    pcl2_expm_series(n, m, p, work);
     for (int32_t s = 0; s < squarings; s++) {
         /* (1 + p)^2 - 1 = 2p + p^2 */
-        expm_product(n, p, p, work);
+        pcl2_expm_product(n, p, p, work);
         for (int32_t i = 0; i < n * n; i++) {
             p[i] = 2 * p[i] + work[i];
         }

@@ -4,21 +4,21 @@
 #include "pcl2_polyroots.h"
 #include "pcl2_math.h"
 
-struct polyroots_complex {
+struct pcl2_polyroots_complex {
     pcl2_real re;  /* real part */
     pcl2_real im;  /* imaginary part */
 };
 
-static struct polyroots_complex polyroots_mul(struct polyroots_complex x, struct polyroots_complex y)
+static struct pcl2_polyroots_complex pcl2_polyroots_mul(struct pcl2_polyroots_complex x, struct pcl2_polyroots_complex y)
 {
-    const struct polyroots_complex z = {x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re};
+    const struct pcl2_polyroots_complex z = {x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re};
     return z;
 }
 
 /* x/y without squares of y, which might leave the range (Smith, Comm. ACM 5, 1962); y is not 0. */
-static struct polyroots_complex polyroots_div(struct polyroots_complex x, struct polyroots_complex y)
+static struct pcl2_polyroots_complex pcl2_polyroots_div(struct pcl2_polyroots_complex x, struct pcl2_polyroots_complex y)
 {
-    struct polyroots_complex z;
+    struct pcl2_polyroots_complex z;
     if (pcl2_fabs(y.re) >= pcl2_fabs(y.im)) {
         const pcl2_real ratio = y.im / y.re;
         const pcl2_real size = y.re + y.im * ratio;
@@ -34,26 +34,26 @@ static struct polyroots_complex polyroots_div(struct polyroots_complex x, struct
 }
 
 /* Within a factor of the square root of 2: exact enough for bounds. */
-static pcl2_real polyroots_size(struct polyroots_complex z)
+static pcl2_real pcl2_polyroots_size(struct pcl2_polyroots_complex z)
 {
     return pcl2_fabs(z.re) + pcl2_fabs(z.im);
 }
 
 /* Coefficient of s^k; 1 for k = n. */
-static pcl2_real polyroots_coefficient(int32_t n, const pcl2_real *a, int32_t k)
+static pcl2_real pcl2_polyroots_coefficient(int32_t n, const pcl2_real *a, int32_t k)
 {
     return k == n ? PCL2_R(1.0) : a[n - 1 - k];
 }
 
 /* Exponent, rounded down, of the radius that the edge of the Newton polygon from s^low belongs to; *high gets its
  * other end. The polygon is the upper hull of (k, log2 |coefficient of s^k|). */
-static int32_t polyroots_edge(int32_t n, const pcl2_real *a, int32_t low, int32_t *high)
+static int32_t pcl2_polyroots_edge(int32_t n, const pcl2_real *a, int32_t low, int32_t *high)
 {
-    const int32_t from = pcl2_exponent(polyroots_coefficient(n, a, low));
+    const int32_t from = pcl2_exponent(pcl2_polyroots_coefficient(n, a, low));
     int32_t rise = 0;
     int32_t run = 0;
     for (int32_t k = low + 1; k <= n; k++) {
-        const pcl2_real value = polyroots_coefficient(n, a, k);
+        const pcl2_real value = pcl2_polyroots_coefficient(n, a, k);
         const int32_t step = pcl2_exponent(value) - from;
         if (value != 0 && (run == 0 || step * run >= rise * (k - low))) {
             rise = step;
@@ -66,77 +66,77 @@ static int32_t polyroots_edge(int32_t n, const pcl2_real *a, int32_t low, int32_
 
 /* First points: on a circle for each edge, turned by the golden angle from one to the next so that no two meet and
  * no symmetry holds the iteration. */
-static void polyroots_start(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
+static void pcl2_polyroots_start(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
 {
-    const struct polyroots_complex turn = {PCL2_R(-0.7373688780783197), PCL2_R(0.6754902942615238)};
-    struct polyroots_complex direction = {PCL2_R(0.8), PCL2_R(0.6)};
+    const struct pcl2_polyroots_complex turn = {PCL2_R(-0.7373688780783197), PCL2_R(0.6754902942615238)};
+    struct pcl2_polyroots_complex direction = {PCL2_R(0.8), PCL2_R(0.6)};
     int32_t i = 0;
     while (i < n) {
         int32_t high = n;
-        const pcl2_real radius = pcl2_power_of_2(polyroots_edge(n, a, i, &high));
+        const pcl2_real radius = pcl2_power_of_2(pcl2_polyroots_edge(n, a, i, &high));
         for (; i < high; i++) {
             re[i] = radius * direction.re;
             im[i] = radius * direction.im;
-            direction = polyroots_mul(direction, turn);
+            direction = pcl2_polyroots_mul(direction, turn);
         }
     }
 }
 
 /* Newton's correction p/p' at z; 0 where p is no more than its own rounding errors. */
-static struct polyroots_complex polyroots_newton(int32_t n, const pcl2_real *a, struct polyroots_complex z)
+static struct pcl2_polyroots_complex pcl2_polyroots_newton(int32_t n, const pcl2_real *a, struct pcl2_polyroots_complex z)
 {
-    struct polyroots_complex p = {PCL2_R(1.0), PCL2_R(0.0)};
-    struct polyroots_complex slope = {PCL2_R(0.0), PCL2_R(0.0)};
-    const struct polyroots_complex none = {PCL2_R(0.0), PCL2_R(0.0)};
+    struct pcl2_polyroots_complex p = {PCL2_R(1.0), PCL2_R(0.0)};
+    struct pcl2_polyroots_complex slope = {PCL2_R(0.0), PCL2_R(0.0)};
+    const struct pcl2_polyroots_complex none = {PCL2_R(0.0), PCL2_R(0.0)};
     const pcl2_real radius = pcl2_sqrt(z.re * z.re + z.im * z.im);
     pcl2_real bound = PCL2_R(1.0);
     for (int32_t i = 0; i < n; i++) {
-        slope = polyroots_mul(slope, z);
+        slope = pcl2_polyroots_mul(slope, z);
         slope.re += p.re;
         slope.im += p.im;
-        p = polyroots_mul(p, z);
+        p = pcl2_polyroots_mul(p, z);
         p.re += a[i];
         bound = bound * radius + pcl2_fabs(a[i]);
     }
-    if (polyroots_size(p) <= 2 * PCL2_REAL_EPSILON * bound) {
+    if (pcl2_polyroots_size(p) <= 2 * PCL2_REAL_EPSILON * bound) {
         return none;
     }
-    if (polyroots_size(slope) == 0) {
+    if (pcl2_polyroots_size(slope) == 0) {
         slope.re = bound;
     }
-    return polyroots_div(p, slope);
+    return pcl2_polyroots_div(p, slope);
 }
 
 /* One sweep of Aberth's iteration over all points; 1 while one of them still moves. */
-static int32_t polyroots_sweep(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
+static int32_t pcl2_polyroots_sweep(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
 {
     int32_t moved = 0;
     for (int32_t i = 0; i < n; i++) {
-        const struct polyroots_complex one = {PCL2_R(1.0), PCL2_R(0.0)};
-        const struct polyroots_complex z = {re[i], im[i]};
-        const struct polyroots_complex newton = polyroots_newton(n, a, z);
-        struct polyroots_complex repel = {PCL2_R(0.0), PCL2_R(0.0)};
+        const struct pcl2_polyroots_complex one = {PCL2_R(1.0), PCL2_R(0.0)};
+        const struct pcl2_polyroots_complex z = {re[i], im[i]};
+        const struct pcl2_polyroots_complex newton = pcl2_polyroots_newton(n, a, z);
+        struct pcl2_polyroots_complex repel = {PCL2_R(0.0), PCL2_R(0.0)};
         for (int32_t j = 0; j < n; j++) {
-            const struct polyroots_complex gap = {z.re - re[j], z.im - im[j]};
-            if (j != i && polyroots_size(gap) != 0) {
-                const struct polyroots_complex push = polyroots_div(one, gap);
+            const struct pcl2_polyroots_complex gap = {z.re - re[j], z.im - im[j]};
+            if (j != i && pcl2_polyroots_size(gap) != 0) {
+                const struct pcl2_polyroots_complex push = pcl2_polyroots_div(one, gap);
                 repel.re += push.re;
                 repel.im += push.im;
             }
         }
-        struct polyroots_complex shrink = polyroots_mul(newton, repel);
+        struct pcl2_polyroots_complex shrink = pcl2_polyroots_mul(newton, repel);
         shrink.re = 1 - shrink.re;
         shrink.im = -shrink.im;
-        const struct polyroots_complex step = polyroots_size(shrink) == 0 ? newton : polyroots_div(newton, shrink);
+        const struct pcl2_polyroots_complex step = pcl2_polyroots_size(shrink) == 0 ? newton : pcl2_polyroots_div(newton, shrink);
         re[i] -= step.re;
         im[i] -= step.im;
-        moved |= polyroots_size(step) > PCL2_REAL_EPSILON * polyroots_size(z);
+        moved |= pcl2_polyroots_size(step) > PCL2_REAL_EPSILON * pcl2_polyroots_size(z);
     }
     return moved;
 }
 
 /* s^2 + a s + b without cancellation. */
-static void polyroots_quadratic(pcl2_real a, pcl2_real b, pcl2_real *re, pcl2_real *im)
+static void pcl2_polyroots_quadratic(pcl2_real a, pcl2_real b, pcl2_real *re, pcl2_real *im)
 {
     const pcl2_real half = a / 2;
     const pcl2_real square = half * half - b;
@@ -165,16 +165,16 @@ int32_t pcl2_polyroots_scale(int32_t n, const pcl2_real *a, int32_t least)
 }
 
 /* Roots of a polynomial whose last coefficient is not 0. */
-static void polyroots_solve(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
+static void pcl2_polyroots_solve(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
 {
     if (n == 1) {
         re[0] = -a[0];
         im[0] = PCL2_R(0.0);
     } else if (n == 2) {
-        polyroots_quadratic(a[0], a[1], re, im);
+        pcl2_polyroots_quadratic(a[0], a[1], re, im);
     } else if (n > 2) {
-        polyroots_start(n, a, re, im);
-        for (int32_t sweep = 0; sweep < 200 && polyroots_sweep(n, a, re, im); sweep++) {
+        pcl2_polyroots_start(n, a, re, im);
+        for (int32_t sweep = 0; sweep < 200 && pcl2_polyroots_sweep(n, a, re, im); sweep++) {
         }
     }
 }
@@ -196,7 +196,7 @@ void pcl2_polyroots(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
         re[roots] = PCL2_R(0.0);
         im[roots] = PCL2_R(0.0);
     }
-    polyroots_solve(roots, scaled, re, im);
+    pcl2_polyroots_solve(roots, scaled, re, im);
     for (int32_t i = 0; i < n; i++) {
         re[i] *= unit;
         im[i] = pcl2_fabs(im[i]) * unit <= 1024 * PCL2_REAL_EPSILON * pcl2_fabs(re[i]) ? PCL2_R(0.0) : im[i] * unit;

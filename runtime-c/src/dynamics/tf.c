@@ -25,7 +25,7 @@ PCL2_KERNEL void pcl2_tf_init(
 }
 
 /* x s^k without leaving the range on the way. */
-static pcl2_real tf_scaled(pcl2_real x, pcl2_real s, int32_t k)
+static pcl2_real pcl2_tf_scaled(pcl2_real x, pcl2_real s, int32_t k)
 {
     for (; k > 0; k--) {
         x *= s;
@@ -53,12 +53,12 @@ PCL2_KERNEL void pcl2_tf_tune(
         m[i * size + i + 1] = s * h;
     }
     for (int32_t j = 0; j < nx; j++) {
-        m[(nx - 1) * size + j] -= tf_scaled(den[nx - 1 - j] * h, s, j - nx + 1);
+        m[(nx - 1) * size + j] -= pcl2_tf_scaled(den[nx - 1 - j] * h, s, j - nx + 1);
     }
     pcl2_expm1m(size, m, p, product);
     for (int32_t i = 0; i < size; i++) {
         for (int32_t j = 0; j < size; j++) {
-            p[i * size + j] = tf_scaled(p[i * size + j], s, i - j);
+            p[i * size + j] = pcl2_tf_scaled(p[i * size + j], s, i - j);
         }
     }
 }

@@ -31,7 +31,7 @@ PCL2_KERNEL void pcl2_trfun_tune(
 }
 
 /* |1 + z + z^2/2 + z^3/6 + z^4/24|^2, the growth of a mode in one step, squared (Horner's rule). */
-static pcl2_real trfun_growth(pcl2_real re, pcl2_real im)
+static pcl2_real pcl2_trfun_growth(pcl2_real re, pcl2_real im)
 {
     pcl2_real p = PCL2_R(1.0);
     pcl2_real q = PCL2_R(0.0);
@@ -62,7 +62,7 @@ PCL2_KERNEL int32_t pcl2_trfun_check(
     (void)x0;
     pcl2_polyroots(nden, den, re, im);
     for (int32_t i = 0; i < nden; i++) {
-        const pcl2_real growth = trfun_growth(h * re[i], h * im[i]);
+        const pcl2_real growth = pcl2_trfun_growth(h * re[i], h * im[i]);
         const pcl2_real size = pcl2_fabs(re[i]) + pcl2_fabs(im[i]);
         if (re[i] <= margin * size && !(growth <= worst)) {
             worst = growth;
@@ -74,7 +74,7 @@ PCL2_KERNEL int32_t pcl2_trfun_check(
     return fault;
 }
 
-static void trfun_slope(int32_t n, pcl2_real u, const pcl2_real *a, const pcl2_real *x, pcl2_real *slope)
+static void pcl2_trfun_slope(int32_t n, pcl2_real u, const pcl2_real *a, const pcl2_real *x, pcl2_real *slope)
 {
     for (int32_t i = 0; i < n - 1; i++) {
         slope[i] = x[i + 1];
@@ -99,7 +99,7 @@ PCL2_KERNEL void pcl2_trfun(
         next[i] = PCL2_R(0.0);
     }
     for (int32_t stage = 0; stage < 4; stage++) {
-        trfun_slope(nx, u, a, point, slope);
+        pcl2_trfun_slope(nx, u, a, point, slope);
         for (int32_t i = 0; i < nx; i++) {
             next[i] += weight[stage] * slope[i];
             point[i] = x[i] + advance[stage] * self->h * slope[i];

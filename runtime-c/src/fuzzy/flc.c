@@ -13,22 +13,22 @@ enum { FLC_OK = 0, FLC_SIGNAL = 1 };
 enum { FLC_SUGENO = 0 };
 
 /* The lower of the two active sets, 0..5 from NB, and the membership in the upper one. */
-struct flc_place {
+struct pcl2_flc_place {
     int32_t set;
     pcl2_real upper;
 };
 
 /* A NaN ends at the lower limit. */
-PCL2_INLINE pcl2_real flc_clamp(pcl2_real x, pcl2_real low, pcl2_real high)
+PCL2_INLINE pcl2_real pcl2_flc_clamp(pcl2_real x, pcl2_real low, pcl2_real high)
 {
     x = (x > low) ? x : low;
     return (x < high) ? x : high;
 }
 
-PCL2_INLINE struct flc_place flc_fuzzify(pcl2_real x)
+PCL2_INLINE struct pcl2_flc_place pcl2_flc_fuzzify(pcl2_real x)
 {
-    struct flc_place place;
-    const pcl2_real position = (flc_clamp(x, PCL2_R(-1.0), PCL2_R(1.0)) + PCL2_R(1.0)) * PCL2_R(3.0);
+    struct pcl2_flc_place place;
+    const pcl2_real position = (pcl2_flc_clamp(x, PCL2_R(-1.0), PCL2_R(1.0)) + PCL2_R(1.0)) * PCL2_R(3.0);
     const int32_t set = (int32_t)position;
     place.set = (set < 5) ? set : 5;
     place.upper = position - (pcl2_real)place.set;
@@ -36,47 +36,47 @@ PCL2_INLINE struct flc_place flc_fuzzify(pcl2_real x)
 }
 
 /* Output set of the sets i and j, both counted from NB: -3 .. 3. */
-PCL2_INLINE int32_t flc_rule(int32_t i, int32_t j)
+PCL2_INLINE int32_t pcl2_flc_rule(int32_t i, int32_t j)
 {
     const int32_t r = i + j - 6;
     return (r < -3) ? -3 : (r > 3) ? 3 : r;
 }
 
 /* Product of the memberships, singletons r/3.  The weights add up to 1. */
-PCL2_INLINE pcl2_real flc_sugeno(struct flc_place e, struct flc_place de)
+PCL2_INLINE pcl2_real pcl2_flc_sugeno(struct pcl2_flc_place e, struct pcl2_flc_place de)
 {
     const pcl2_real low = PCL2_R(1.0) - e.upper;
-    const pcl2_real mixed = (pcl2_real)flc_rule(e.set, de.set + 1);
-    const pcl2_real lower = (pcl2_real)flc_rule(e.set, de.set) * (PCL2_R(1.0) - de.upper) + mixed * de.upper;
-    const pcl2_real upper = mixed * (PCL2_R(1.0) - de.upper) + (pcl2_real)flc_rule(e.set + 1, de.set + 1) * de.upper;
+    const pcl2_real mixed = (pcl2_real)pcl2_flc_rule(e.set, de.set + 1);
+    const pcl2_real lower = (pcl2_real)pcl2_flc_rule(e.set, de.set) * (PCL2_R(1.0) - de.upper) + mixed * de.upper;
+    const pcl2_real upper = mixed * (PCL2_R(1.0) - de.upper) + (pcl2_real)pcl2_flc_rule(e.set + 1, de.set + 1) * de.upper;
     return (low * lower + e.upper * upper) / PCL2_R(3.0);
 }
 
-PCL2_INLINE pcl2_real flc_min(pcl2_real a, pcl2_real b)
+PCL2_INLINE pcl2_real pcl2_flc_min(pcl2_real a, pcl2_real b)
 {
     return (a < b) ? a : b;
 }
 
-PCL2_INLINE pcl2_real flc_max(pcl2_real a, pcl2_real b)
+PCL2_INLINE pcl2_real pcl2_flc_max(pcl2_real a, pcl2_real b)
 {
     return (a > b) ? a : b;
 }
 
 /* Min, clipped triangles, max, centre of gravity over the points m/100, m = -100..100.  Between the
  * centres r/3 and (r+1)/3 only the output sets r and r+1 are not zero. */
-PCL2_INLINE pcl2_real flc_mamdani(struct flc_place e, struct flc_place de)
+PCL2_INLINE pcl2_real pcl2_flc_mamdani(struct pcl2_flc_place e, struct pcl2_flc_place de)
 {
     /* Levels of the sets -4 .. 4; the outer ones only close the last gaps. */
     pcl2_real level[9] = {PCL2_R(0.0)};
     const pcl2_real low_e = PCL2_R(1.0) - e.upper;
     const pcl2_real low_de = PCL2_R(1.0) - de.upper;
     pcl2_real *const out = level + 4;
-    const int32_t bottom = flc_rule(e.set, de.set);
-    const int32_t middle = flc_rule(e.set, de.set + 1);
-    const int32_t top = flc_rule(e.set + 1, de.set + 1);
-    out[bottom] = flc_min(low_e, low_de);
-    out[middle] = flc_max(out[middle], flc_max(flc_min(low_e, de.upper), flc_min(e.upper, low_de)));
-    out[top] = flc_max(out[top], flc_min(e.upper, de.upper));
+    const int32_t bottom = pcl2_flc_rule(e.set, de.set);
+    const int32_t middle = pcl2_flc_rule(e.set, de.set + 1);
+    const int32_t top = pcl2_flc_rule(e.set + 1, de.set + 1);
+    out[bottom] = pcl2_flc_min(low_e, low_de);
+    out[middle] = pcl2_flc_max(out[middle], pcl2_flc_max(pcl2_flc_min(low_e, de.upper), pcl2_flc_min(e.upper, low_de)));
+    out[top] = pcl2_flc_max(out[top], pcl2_flc_min(e.upper, de.upper));
     pcl2_real area = PCL2_R(0.0);
     pcl2_real moment = PCL2_R(0.0);
     for (int32_t r = (bottom > -3) ? bottom - 1 : -3; r <= top && r <= 3; ++r) {
@@ -88,7 +88,7 @@ PCL2_INLINE pcl2_real flc_mamdani(struct flc_place e, struct flc_place de)
         const pcl2_real centre = (pcl2_real)(100 * r);
         for (int32_t m = first; m < after; ++m) {
             const pcl2_real t = ((pcl2_real)(3 * m) - centre) * PCL2_R(0.01);
-            const pcl2_real height = flc_max(flc_min(fall, PCL2_R(1.0) - t), flc_min(rise, t));
+            const pcl2_real height = pcl2_flc_max(pcl2_flc_min(fall, PCL2_R(1.0) - t), pcl2_flc_min(rise, t));
             area += height;
             moment += (pcl2_real)m * height;
         }
@@ -122,11 +122,11 @@ PCL2_KERNEL void pcl2_flc(struct pcl2_flc *self, pcl2_real w, pcl2_real y, pcl2_
         self->e1 = e;
     }
     if (sw != PCL2_R(0.0) && !pcl2_is_bad(sw)) {
-        self->u = flc_clamp(u0, umin, umax);
+        self->u = pcl2_flc_clamp(u0, umin, umax);
     } else if (!bad) {
-        const struct flc_place place_e = flc_fuzzify(ge * e);
-        const struct flc_place place_de = flc_fuzzify(gd * de);
-        const pcl2_real out = (type == FLC_SUGENO) ? flc_sugeno(place_e, place_de) : flc_mamdani(place_e, place_de);
-        self->u = flc_clamp(self->u + gu * out, umin, umax);
+        const struct pcl2_flc_place place_e = pcl2_flc_fuzzify(ge * e);
+        const struct pcl2_flc_place place_de = pcl2_flc_fuzzify(gd * de);
+        const pcl2_real out = (type == FLC_SUGENO) ? pcl2_flc_sugeno(place_e, place_de) : pcl2_flc_mamdani(place_e, place_de);
+        self->u = pcl2_flc_clamp(self->u + gu * out, umin, umax);
     }
 }

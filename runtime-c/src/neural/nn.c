@@ -10,7 +10,7 @@
 enum { NN_OK = 0, NN_SIGNAL = 1, NN_DIVERGED = 2 };
 
 /* w[0..n-1] x + w[n]; the bias first, so that the sum waits for nothing. */
-PCL2_INLINE pcl2_real nn_neuron(int32_t n, const pcl2_real *w, const pcl2_real *x)
+PCL2_INLINE pcl2_real pcl2_nn_neuron(int32_t n, const pcl2_real *w, const pcl2_real *x)
 {
     pcl2_real sum = w[n];
     for (int32_t i = 0; i < n; ++i) {
@@ -19,20 +19,20 @@ PCL2_INLINE pcl2_real nn_neuron(int32_t n, const pcl2_real *w, const pcl2_real *
     return sum;
 }
 
-PCL2_INLINE void nn_forward(int32_t m, int32_t n, int32_t h, const pcl2_real *w, const pcl2_real *x,
+PCL2_INLINE void pcl2_nn_forward(int32_t m, int32_t n, int32_t h, const pcl2_real *w, const pcl2_real *x,
                             pcl2_real *z, pcl2_real *o)
 {
     const pcl2_real *const output = w + (n + 1) * h;
     for (int32_t j = 0; j < h; ++j) {
-        z[j] = pcl2_tanh(nn_neuron(n, w + j * (n + 1), x));
+        z[j] = pcl2_tanh(pcl2_nn_neuron(n, w + j * (n + 1), x));
     }
     for (int32_t k = 0; k < m; ++k) {
-        o[k] = nn_neuron(h, output + k * (h + 1), z);
+        o[k] = pcl2_nn_neuron(h, output + k * (h + 1), z);
     }
 }
 
 /* One neuron's weights: step = -eta dE/d(its sum). */
-PCL2_INLINE void nn_learn(int32_t n, pcl2_real *w, pcl2_real *dw, const pcl2_real *x, pcl2_real step,
+PCL2_INLINE void pcl2_nn_learn(int32_t n, pcl2_real *w, pcl2_real *dw, const pcl2_real *x, pcl2_real step,
                           pcl2_real alpha)
 {
     for (int32_t i = 0; i < n; ++i) {
@@ -45,7 +45,7 @@ PCL2_INLINE void nn_learn(int32_t n, pcl2_real *w, pcl2_real *dw, const pcl2_rea
 
 /* delta = -eta times the errors of the hidden sums, then of the outputs; returns their largest size times
  * the largest input, which bounds every change of a weight (tanh is at most 1). */
-PCL2_INLINE pcl2_real nn_errors(int32_t m, int32_t n, int32_t h, const pcl2_real *w, const pcl2_real *x,
+PCL2_INLINE pcl2_real pcl2_nn_errors(int32_t m, int32_t n, int32_t h, const pcl2_real *w, const pcl2_real *x,
                                 const pcl2_real *t, const pcl2_real *z, const pcl2_real *o,
                                 pcl2_real eta, pcl2_real *delta)
 {
@@ -70,7 +70,7 @@ PCL2_INLINE pcl2_real nn_errors(int32_t m, int32_t n, int32_t h, const pcl2_real
     return size * reach;
 }
 
-PCL2_INLINE int32_t nn_any_bad(int32_t n, const pcl2_real *x)
+PCL2_INLINE int32_t pcl2_nn_any_bad(int32_t n, const pcl2_real *x)
 {
     int32_t bad = 0;
     for (int32_t i = 0; i < n; ++i) {
@@ -101,12 +101,12 @@ PCL2_KERNEL void pcl2_nn(struct pcl2_nn *self, int32_t m, const pcl2_real *x, co
     const pcl2_real limit = (PCL2_REAL_BITS == 32) ? PCL2_R(1e12) : PCL2_R(1e30);
     const int32_t first = (n + 1) * h;
     self->status = NN_SIGNAL;
-    if (nn_any_bad(n, x)) {
+    if (pcl2_nn_any_bad(n, x)) {
         return;
     }
     /* The outputs wait in delta: sums of huge x may cancel to NaN. */
-    nn_forward(m, n, h, w, x, z, delta + h);
-    if (nn_any_bad(m, delta + h)) {
+    pcl2_nn_forward(m, n, h, w, x, z, delta + h);
+    if (pcl2_nn_any_bad(m, delta + h)) {
         return;
     }
     for (int32_t k = 0; k < m; ++k) {
@@ -116,14 +116,14 @@ PCL2_KERNEL void pcl2_nn(struct pcl2_nn *self, int32_t m, const pcl2_real *x, co
     if (!(en != PCL2_R(0.0)) || pcl2_is_bad(en)) {
         return;
     }
-    if (!(nn_errors(m, n, h, w, x, t, z, o, eta, delta) < limit)) {
-        self->status = nn_any_bad(m, t) ? NN_SIGNAL : NN_DIVERGED;
+    if (!(pcl2_nn_errors(m, n, h, w, x, t, z, o, eta, delta) < limit)) {
+        self->status = pcl2_nn_any_bad(m, t) ? NN_SIGNAL : NN_DIVERGED;
         return;
     }
     for (int32_t j = 0; j < h; ++j) {
-        nn_learn(n, w + j * (n + 1), dw + j * (n + 1), x, delta[j], alpha);
+        pcl2_nn_learn(n, w + j * (n + 1), dw + j * (n + 1), x, delta[j], alpha);
     }
     for (int32_t k = 0; k < m; ++k) {
-        nn_learn(h, w + first + k * (h + 1), dw + first + k * (h + 1), z, delta[h + k], alpha);
+        pcl2_nn_learn(h, w + first + k * (h + 1), dw + first + k * (h + 1), z, delta[h + k], alpha);
     }
 }

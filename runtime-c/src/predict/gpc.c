@@ -35,12 +35,12 @@
 enum { GPC_OK = 0, GPC_SIGNAL = 1, GPC_SINGULAR = 2 };
 
 /* Orders of A (without its leading 1) and of B, dead time, horizon and number of moves. */
-struct gpc_size {
+struct pcl2_gpc_size {
     int32_t na, nb, d, n2, nu;
 };
 
 /* Where one controller keeps what; model holds the p of the last design. */
-struct gpc_state {
+struct pcl2_gpc_state {
     pcl2_real *designed;  /* lambda of the last design, -1 before the first */
     pcl2_real *y1;
     int32_t *started;     /* 1 once y1 is a measured y */
@@ -50,14 +50,14 @@ struct gpc_state {
 };
 
 /* A NaN ends at umin, an infinity at its own side. */
-PCL2_INLINE pcl2_real gpc_clamp(pcl2_real u, pcl2_real umin, pcl2_real umax)
+PCL2_INLINE pcl2_real pcl2_gpc_clamp(pcl2_real u, pcl2_real umin, pcl2_real umax)
 {
     u = (u > umin) ? u : umin;
     return (u < umax) ? u : umax;
 }
 
 /* How far the model reaches back: steps at which something of the past still enters it. */
-PCL2_INLINE int32_t gpc_reach(struct gpc_size z)
+PCL2_INLINE int32_t pcl2_gpc_reach(struct pcl2_gpc_size z)
 {
     return (z.na > z.nb - 1 + z.d) ? z.na : z.nb - 1 + z.d;
 }
@@ -65,7 +65,7 @@ PCL2_INLINE int32_t gpc_reach(struct gpc_size z)
 /* c_r: step response of 1/A from c_0 = 1, N2 values.  g_s = sum b_m c_(s-1-m): step
  * response of B/A without its dead time, N2 - d values from g_1 (the g_j of the paper, moved by d).
  * The newest term is added last: it is the one that the next turn waits for. */
-PCL2_INLINE void gpc_responses(struct gpc_size z, const pcl2_real *p, pcl2_real *c, pcl2_real *g)
+PCL2_INLINE void pcl2_gpc_responses(struct pcl2_gpc_size z, const pcl2_real *p, pcl2_real *c, pcl2_real *g)
 {
     GPC_UNROLL
     for (int32_t r = 0; r < z.n2; ++r) {
@@ -90,7 +90,7 @@ PCL2_INLINE void gpc_responses(struct gpc_size z, const pcl2_real *p, pcl2_real 
 
 /* Upper triangle of G'G + lambda I.  G is Toeplitz, so the elements of one diagonal are partial sums
  * of one row: (G'G)[l-e][l] = sum over q = 1..n-l of g_q g_(q+e). */
-PCL2_INLINE void gpc_hessian(struct gpc_size z, const pcl2_real *g, pcl2_real lambda, pcl2_real *h)
+PCL2_INLINE void pcl2_gpc_hessian(struct pcl2_gpc_size z, const pcl2_real *g, pcl2_real lambda, pcl2_real *h)
 {
     GPC_UNROLL
     for (int32_t e = 0; e < z.nu; ++e) {
@@ -111,7 +111,7 @@ PCL2_INLINE void gpc_hessian(struct gpc_size z, const pcl2_real *g, pcl2_real la
  * upwards, so that only the back substitution of one unit vector remains.  v is that column over its
  * first element, which is returned; 0 when h is singular.  A pivot that is rounding noise of its
  * diagonal element counts as zero. */
-PCL2_INLINE pcl2_real gpc_solve(int32_t n, pcl2_real *h, pcl2_real *v)
+PCL2_INLINE pcl2_real pcl2_gpc_solve(int32_t n, pcl2_real *h, pcl2_real *v)
 {
     const pcl2_real noise = PCL2_REAL_EPSILON * (pcl2_real)n;
     pcl2_real inverse = PCL2_R(0.0);
@@ -150,12 +150,12 @@ PCL2_INLINE pcl2_real gpc_solve(int32_t n, pcl2_real *h, pcl2_real *v)
 }
 
 /* Weights of what enters the model at step q = 1.. from the past: mu_q = sum over the horizon of
- * k_j c_(j-q), with the gains k_j = sum_i v_i g_(j-d-i) of w - f (over the scale of gpc_solve).  Move i contributes the correlation of
+ * k_j c_(j-q), with the gains k_j = sum_i v_i g_(j-d-i) of w - f (over the scale of pcl2_gpc_solve).  Move i contributes the correlation of
  * g and c at the lag i + d - q up to n - i, so the moves of one lag share a running sum. */
-PCL2_INLINE void gpc_weights(struct gpc_size z, const pcl2_real *c, const pcl2_real *g, const pcl2_real *v,
+PCL2_INLINE void pcl2_gpc_weights(struct pcl2_gpc_size z, const pcl2_real *c, const pcl2_real *g, const pcl2_real *v,
                              pcl2_real *mu)
 {
-    const int32_t nq = gpc_reach(z);
+    const int32_t nq = pcl2_gpc_reach(z);
     GPC_UNROLL
     for (int32_t q = 0; q < nq; ++q) {
         mu[q] = PCL2_R(0.0);
@@ -178,7 +178,7 @@ PCL2_INLINE void gpc_weights(struct gpc_size z, const pcl2_real *c, const pcl2_r
 }
 
 /* kw = sum of all k_j. */
-PCL2_INLINE pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g, const pcl2_real *v)
+PCL2_INLINE pcl2_real pcl2_gpc_setpoint_gain(struct pcl2_gpc_size z, const pcl2_real *g, const pcl2_real *v)
 {
     pcl2_real gain = PCL2_R(0.0);
     pcl2_real sum = PCL2_R(0.0);
@@ -195,7 +195,7 @@ PCL2_INLINE pcl2_real gpc_setpoint_gain(struct gpc_size z, const pcl2_real *g, c
 }
 
 /* The law of a new model. */
-PCL2_INLINE int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, pcl2_real *gain,
+PCL2_INLINE int32_t pcl2_gpc_design(struct pcl2_gpc_size z, const pcl2_real *p, pcl2_real lambda, pcl2_real *gain,
                                pcl2_real *work)
 {
     pcl2_real *const c = work;
@@ -203,14 +203,14 @@ PCL2_INLINE int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real 
     pcl2_real *const h = g + (z.n2 - z.d);
     pcl2_real *const v = h + z.nu * z.nu;
     pcl2_real *const mu = v + z.nu;
-    gpc_responses(z, p, c, g);
-    gpc_hessian(z, g, lambda, h);
-    const pcl2_real scale = gpc_solve(z.nu, h, v);
+    pcl2_gpc_responses(z, p, c, g);
+    pcl2_gpc_hessian(z, g, lambda, h);
+    const pcl2_real scale = pcl2_gpc_solve(z.nu, h, v);
     if (!(scale > PCL2_R(0.0))) {
         return GPC_SINGULAR;
     }
-    gpc_weights(z, c, g, v, mu);
-    gain[0] = scale * gpc_setpoint_gain(z, g, v);
+    pcl2_gpc_weights(z, c, g, v, mu);
+    gain[0] = scale * pcl2_gpc_setpoint_gain(z, g, v);
     pcl2_real size = gain[0];
     GPC_UNROLL
     for (int32_t s = 0; s < z.na; ++s) {
@@ -236,7 +236,7 @@ PCL2_INLINE int32_t gpc_design(struct gpc_size z, const pcl2_real *p, pcl2_real 
 }
 
 /* NaN differs from itself, so a bad model is designed anew each scan and never taken as unchanged. */
-PCL2_INLINE int32_t gpc_changed(int32_t n, const pcl2_real *p, const pcl2_real *model)
+PCL2_INLINE int32_t pcl2_gpc_changed(int32_t n, const pcl2_real *p, const pcl2_real *model)
 {
     PCL2_UNROLL
     for (int32_t i = 0; i < n; ++i) {
@@ -248,9 +248,9 @@ PCL2_INLINE int32_t gpc_changed(int32_t n, const pcl2_real *p, const pcl2_real *
 }
 
 /* Without a law all gains are zero, which holds the output, and the design is tried again each scan. */
-PCL2_INLINE int32_t gpc_redesign(struct gpc_size z, const pcl2_real *p, pcl2_real lambda, struct gpc_state at)
+PCL2_INLINE int32_t pcl2_gpc_redesign(struct pcl2_gpc_size z, const pcl2_real *p, pcl2_real lambda, struct pcl2_gpc_state at)
 {
-    const int32_t status = gpc_design(z, p, lambda, at.gain, at.work);
+    const int32_t status = pcl2_gpc_design(z, p, lambda, at.gain, at.work);
     if (status != GPC_OK) {
         GPC_UNROLL
         for (int32_t i = 0; i < z.na + z.nb + z.d; ++i) {
@@ -266,15 +266,15 @@ PCL2_INLINE int32_t gpc_redesign(struct gpc_size z, const pcl2_real *p, pcl2_rea
 }
 
 /* Differences of y in the past. */
-PCL2_INLINE int32_t gpc_kept(struct gpc_size z)
+PCL2_INLINE int32_t pcl2_gpc_kept(struct pcl2_gpc_size z)
 {
     return (z.na > 0) ? z.na - 1 : 0;
 }
 
 /* Lets a measured y into the history. */
-PCL2_INLINE void gpc_measured(struct gpc_size z, struct gpc_state at, pcl2_real y)
+PCL2_INLINE void pcl2_gpc_measured(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real y)
 {
-    const int32_t ny = gpc_kept(z);
+    const int32_t ny = pcl2_gpc_kept(z);
     PCL2_UNROLL
     for (int32_t i = ny - 1; i > 0; --i) {
         at.past[i] = at.past[i - 1];
@@ -286,9 +286,9 @@ PCL2_INLINE void gpc_measured(struct gpc_size z, struct gpc_state at, pcl2_real 
 }
 
 /* Applies u and lets its increment into the history. */
-PCL2_INLINE void gpc_apply(struct gpc_size z, struct gpc_state at, pcl2_real u)
+PCL2_INLINE void pcl2_gpc_apply(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real u)
 {
-    const int32_t ny = gpc_kept(z);
+    const int32_t ny = pcl2_gpc_kept(z);
     const int32_t nu = z.nb - 1 + z.d;
     PCL2_UNROLL
     for (int32_t i = ny + nu - 1; i > ny; --i) {
@@ -302,9 +302,9 @@ PCL2_INLINE void gpc_apply(struct gpc_size z, struct gpc_state at, pcl2_real u)
 
 /* The output of the law before its limits.  The newest increment of u enters last: it is what the scan before
  * finished with. */
-PCL2_INLINE pcl2_real gpc_law(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y)
+PCL2_INLINE pcl2_real pcl2_gpc_law(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real w, pcl2_real y)
 {
-    const int32_t known = gpc_kept(z) + z.nb - 1 + z.d;
+    const int32_t known = pcl2_gpc_kept(z) + z.nb - 1 + z.d;
     const pcl2_real *const gain = at.gain + ((z.na > 0) ? 2 : 1);
     const pcl2_real error = at.gain[0] * (w - y);
     pcl2_real sum = *at.u + ((z.na > 0) ? error + at.gain[1] * (y - *at.y1) : error);
@@ -316,7 +316,7 @@ PCL2_INLINE pcl2_real gpc_law(struct gpc_size z, struct gpc_state at, pcl2_real 
 }
 
 /* The first good y stands for every y before it. */
-PCL2_INLINE void gpc_start(struct gpc_state at, pcl2_real y)
+PCL2_INLINE void pcl2_gpc_start(struct pcl2_gpc_state at, pcl2_real y)
 {
     if (*at.started == 0 && !pcl2_is_bad(y)) {
         *at.y1 = y;
@@ -325,38 +325,38 @@ PCL2_INLINE void gpc_start(struct gpc_state at, pcl2_real y)
 }
 
 /* Manual: u follows u0, a bad y is taken as unchanged. */
-PCL2_INLINE void gpc_manual(struct gpc_size z, struct gpc_state at, pcl2_real y, pcl2_real u)
+PCL2_INLINE void pcl2_gpc_manual(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real y, pcl2_real u)
 {
-    gpc_start(at, y);
+    pcl2_gpc_start(at, y);
     const int32_t bad = pcl2_is_bad(y - *at.y1);
     *at.status = bad ? GPC_SIGNAL : GPC_OK;
-    gpc_measured(z, at, bad ? *at.y1 : y);
-    gpc_apply(z, at, u);
+    pcl2_gpc_measured(z, at, bad ? *at.y1 : y);
+    pcl2_gpc_apply(z, at, u);
 }
 
 /* One scan.  umin and umax bound the applied increment, which is what enters the history.  A bad w or y
  * shows in the differences that the law takes, and so does one that would overflow them.  y enters the
  * history before u is known: else gcc stores both at once and the next scan waits for that. */
-PCL2_INLINE void gpc_scan(struct gpc_size z, struct gpc_state at, pcl2_real w, pcl2_real y,
+PCL2_INLINE void pcl2_gpc_scan(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real w, pcl2_real y,
                           const pcl2_real *p, pcl2_real sw, pcl2_real u0, pcl2_real umin,
                           pcl2_real umax, pcl2_real lambda)
 {
     *at.status = GPC_OK;
     if (sw != PCL2_R(0.0) && !pcl2_is_bad(sw)) {
-        gpc_manual(z, at, y, gpc_clamp(u0, umin, umax));
+        pcl2_gpc_manual(z, at, y, pcl2_gpc_clamp(u0, umin, umax));
         return;
     }
     if (pcl2_is_bad((w - y) + (y - *at.y1))) {
         *at.status = GPC_SIGNAL;
         return;
     }
-    if (PCL2_RARELY(lambda != *at.designed || gpc_changed(z.na + z.nb, p, at.model))) {
-        gpc_start(at, y);
-        *at.status = gpc_redesign(z, p, lambda, at);
+    if (PCL2_RARELY(lambda != *at.designed || pcl2_gpc_changed(z.na + z.nb, p, at.model))) {
+        pcl2_gpc_start(at, y);
+        *at.status = pcl2_gpc_redesign(z, p, lambda, at);
     }
-    const pcl2_real u = gpc_law(z, at, w, y);
-    gpc_measured(z, at, y);
-    gpc_apply(z, at, gpc_clamp(u, umin, umax));
+    const pcl2_real u = pcl2_gpc_law(z, at, w, y);
+    pcl2_gpc_measured(z, at, y);
+    pcl2_gpc_apply(z, at, pcl2_gpc_clamp(u, umin, umax));
 }
 
 PCL2_KERNEL void pcl2_gpc1_init(struct pcl2_gpc1 *self, int32_t d, int32_t N2, int32_t Nu,
@@ -381,10 +381,10 @@ PCL2_KERNEL void pcl2_gpc1(struct pcl2_gpc1 *self, pcl2_real w, pcl2_real y, con
                            pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
                            pcl2_real *gain, pcl2_real *past, pcl2_real *work)
 {
-    const struct gpc_size size = {1, 1, d, N2, Nu};
-    const struct gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
+    const struct pcl2_gpc_size size = {1, 1, d, N2, Nu};
+    const struct pcl2_gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
                                  model, gain, past, work};
-    gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
+    pcl2_gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
 PCL2_KERNEL void pcl2_gpc2_init(struct pcl2_gpc2 *self, int32_t d, int32_t N2, int32_t Nu,
@@ -409,10 +409,10 @@ PCL2_KERNEL void pcl2_gpc2(struct pcl2_gpc2 *self, pcl2_real w, pcl2_real y, con
                            pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
                            pcl2_real *gain, pcl2_real *past, pcl2_real *work)
 {
-    const struct gpc_size size = {2, 2, d, N2, Nu};
-    const struct gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
+    const struct pcl2_gpc_size size = {2, 2, d, N2, Nu};
+    const struct pcl2_gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
                                  model, gain, past, work};
-    gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
+    pcl2_gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
 PCL2_KERNEL void pcl2_gpcn_init(struct pcl2_gpcn *self, int32_t d, int32_t nA, int32_t nB, int32_t N2, int32_t Nu,
@@ -439,10 +439,10 @@ PCL2_KERNEL void pcl2_gpcn(struct pcl2_gpcn *self, pcl2_real w, pcl2_real y, con
                            pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
                            pcl2_real *gain, pcl2_real *past, pcl2_real *work)
 {
-    const struct gpc_size size = {nA - 1, nB, d, N2, Nu};
-    const struct gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
+    const struct pcl2_gpc_size size = {nA - 1, nB, d, N2, Nu};
+    const struct pcl2_gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
                                  model, gain, past, work};
-    gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
+    pcl2_gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
 #if defined(__clang__) && !defined(__OPTIMIZE_SIZE__)

@@ -34,7 +34,27 @@ fn try_build(args: &BuildArgs) -> Result<(), Outcome> {
         let toolchain = Toolchain::of(target).map_err(usage)?;
         one(args, project, verified, &toolchain)?;
     }
+    if loaded.len() > 1 && args.emit == Emit::C {
+        write(&args.output.join("Makefile"), &common_makefile(&loaded)).map_err(failed)?;
+    }
     Ok(())
+}
+
+/// What emitting needs beside the program.
+struct Build<'a> {
+    emit: Options<'a>,
+    /// Several programs share the folder.
+    shared: bool,
+}
+
+/// Builds every program of a folder by its own makefile.
+fn common_makefile(loaded: &[(Project, Verified)]) -> String {
+    let mut text = "# Builds every program of this folder.\nall clean:\n".to_owned();
+    for (_, verified) in loaded {
+        text.push_str(&format!("\t$(MAKE) -f {}.mk $@\n", pcl2_emit::program_name(&verified.program().name)));
+    }
+    text.push_str("\n.PHONY: all clean\n");
+    text
 }
 
 fn usage(message: String) -> Outcome {
@@ -75,7 +95,8 @@ fn one(args: &BuildArgs, project: &Project, verified: &Verified, toolchain: &Too
         piece = verify(cut(verified.program(), part)).map_err(|defect| failed(format!("cut: {defect}")))?;
         &piece
     };
-    let options = Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
+    let emit = Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
+    let options = Build { emit, shared: args.paths.len() > 1 };
     let target = &args.output;
     match args.emit {
         Emit::C => {
@@ -83,7 +104,7 @@ fn one(args: &BuildArgs, project: &Project, verified: &Verified, toolchain: &Too
             console::out(&summary(verified, cut, &emitted, args.part, None));
         }
         Emit::Amalgamation => {
-            let mut emitted = pcl2_emit::emit(cut, &project.sources, &options);
+            let mut emitted = pcl2_emit::emit(cut, &project.sources, &options.emit);
             emitted.files = amalgamate(&emitted);
             write_all(target, &emitted.files)?;
             console::out(&summary(verified, cut, &emitted, args.part, None));
@@ -98,10 +119,13 @@ fn one(args: &BuildArgs, project: &Project, verified: &Verified, toolchain: &Too
     Ok(())
 }
 
-fn emit_into(folder: &Path, program: &Verified, project: &Project, options: &Options<'_>) -> Result<Emitted, Outcome> {
+/// Writes the C of a program. Where several programs share a folder, each has a makefile of its own.
+fn emit_into(folder: &Path, program: &Verified, project: &Project, options: &Build<'_>) -> Result<Emitted, Outcome> {
     let mut trouble = None;
-    let emitted = pcl2_emit::emit_each(program, &project.sources, options, &mut |path, text| {
+    let makefile = format!("{}.mk", pcl2_emit::program_name(&program.program().name));
+    let emitted = pcl2_emit::emit_each(program, &project.sources, &options.emit, &mut |path, text| {
         if trouble.is_none() {
+            let path = if path == "Makefile" && options.shared { makefile.clone() } else { path };
             trouble = write(&folder.join(path), &text).err();
         }
     });

@@ -534,6 +534,16 @@ fn check(context: &mut Context<'_>, decl: &Decl) {
     if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
         complain(context, decl.span, format!("expected each name once in a declaration, found `{}` twice", twice[0]));
     }
+    let places = decl.outputs.iter().map(|output| (&output.name, &output.ty));
+    let places: Vec<_> = places.chain(decl.ports().map(|port| (&port.name, &port.ty))).collect();
+    for (name, _) in places.into_iter().filter(|(_, ty)| matches!(ty, TypeExpr::Text | TypeExpr::Time)) {
+        let message = format!("expected a number, a vector or a matrix for the port `{name}`, found text or time");
+        complain(context, decl.span, message);
+    }
+    for param in decl.params.iter().filter(|param| param.ty == TypeExpr::Time) {
+        let message = format!("expected a number, a vector, a matrix or text for `{}`, found time", param.name);
+        complain(context, decl.span, message);
+    }
     if decl.period && decl.tuned.is_empty() {
         complain(context, decl.span, "expected TUNED beside PERIOD, to keep what the step needs, found none");
     }
