@@ -39,6 +39,7 @@ fn wrong_bindings_are_named() {
         ("h = { point = \"LT1\", fail = 1 }", "expected `fail` for an output"),
         ("q = { point = \"FV1\", bad = \"hold\" }", "expected `bad` for an input"),
         ("h = { point = \"LT1\", bda = \"hold\" }", "did you mean `bad`?"),
+        ("h = \"LT1\"\n[build]\ntunable = [\"w\", \"zz*\"]", "found `zz*`, which no block has"),
     ];
     let source = root().join("tests/projects/points/loop.cfg");
     for (line, expected) in wrong {

@@ -69,6 +69,17 @@ pub enum Tunable {
     Names(Vec<String>),
 }
 
+impl Tunable {
+    /// The first pattern that matches no block of a program: a slip, most likely.
+    pub fn unmatched(&self, program: &Program) -> Option<&str> {
+        let Tunable::Names(patterns) = self else {
+            return None;
+        };
+        let idle = |pattern: &&String| !program.main().blocks.iter().any(|block| seal::matches(pattern, &block.name));
+        patterns.iter().find(idle).map(String::as_str)
+    }
+}
+
 /// What a compilation reads.
 pub struct Input<'a> {
     /// All texts.

@@ -27,6 +27,8 @@ pub(crate) struct Config {
     pub(crate) substeps: Option<u32>,
     /// `[build] tunable`
     pub(crate) tunable: pcl2_cfg::Tunable,
+    /// Where it stands.
+    pub(crate) tunable_span: Option<Span>,
     /// `[io]`
     pub(crate) io: Vec<Binding>,
 }
@@ -153,6 +155,7 @@ impl Reader<'_> {
         for (key, value) in section.iter() {
             match key.get_ref().as_ref() {
                 "tunable" => {
+                    config.tunable_span = Some(self.span(&value.span()));
                     config.tunable = match value.get_ref() {
                         DeValue::String(text) if text == "all" => pcl2_cfg::Tunable::All,
                         DeValue::String(text) if text == "none" => pcl2_cfg::Tunable::None,

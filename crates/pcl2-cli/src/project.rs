@@ -269,6 +269,10 @@ impl Loader {
             return (None, lines);
         };
         crate::io::bind(&place.config, &mut program, &mut self.diagnostics);
+        if let (Some(pattern), Some(span)) = (place.config.tunable.unmatched(&program), place.config.tunable_span) {
+            let message = format!("expected names of blocks, found `{pattern}`, which no block has");
+            self.diagnostics.push(Diagnostic::new(codes::CONFIGURATION, span, message));
+        }
         self.missing_kernels(&program.decls);
         pcl2_cfg::check_period(&program, purpose == Use::Run, &mut self.diagnostics);
         let clock = Instant::now();

@@ -193,6 +193,9 @@ fn instant(text: &str, clock: Clock) -> Result<Reading, String> {
                 NoInstant::Unreadable => format!("expected seconds, found `{text}`"),
                 NoInstant::TooLarge => format!("`{text}` is too late"),
             })?;
+            if time.is_negative() {
+                return Err(format!("`{text}` is before the first scan"));
+            }
             let scan = time.scan(period).ok_or_else(|| format!("`{text}` is too late"))?;
             Ok(Reading { order: Order::Time(time), scan })
         }
