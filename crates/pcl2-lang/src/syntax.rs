@@ -1,5 +1,5 @@
-//! Tokens -> statements: lines are cut, missing parentheses found, then each line is parsed by itself,
-//! so that one mistake never hides the next.
+//! Tokens -> statements: lines are cut and missing parentheses found before the parser sees them, and it starts
+//! afresh behind a line that it does not understand, so that one mistake never hides the next.
 
 use crate::ast::{Item, Line, Name, Number, Operand, Output, Statement};
 use crate::codes;
