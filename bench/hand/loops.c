@@ -4,8 +4,8 @@
 
 static void lag_init(struct hand_lag *self, pcl2_real a, pcl2_real b)
 {
-    self->e = pcl2_exp(-(a * PCL2_R(0.1)));
-    self->g = -(b / a) * pcl2_expm1(-(a * PCL2_R(0.1)));
+    self->e = pcl2_math_exp(-(a * PCL2_R(0.1)));
+    self->g = -(b / a) * pcl2_math_expm1(-(a * PCL2_R(0.1)));
     self->y = PCL2_R(0.0);
 }
 

@@ -7,7 +7,7 @@ void hand_nn_small(struct hand_nn_small *self, const pcl2_real *x, const pcl2_re
     pcl2_real z[16];
     pcl2_real sum = self->w2[16];
     for (int j = 0; j < 16; ++j) {
-        z[j] = pcl2_tanh(self->w1[j][2] + self->w1[j][0] * x[0] + self->w1[j][1] * x[1]);
+        z[j] = pcl2_math_tanh(self->w1[j][2] + self->w1[j][0] * x[0] + self->w1[j][1] * x[1]);
         sum += self->w2[j] * z[j];
     }
     o[0] = sum;
@@ -42,7 +42,7 @@ void hand_nn_large(struct hand_nn_large *self, const pcl2_real *x, const pcl2_re
         for (int i = 0; i < 8; ++i) {
             sum += self->w1[j][i] * in[i];
         }
-        z[j] = pcl2_tanh(sum);
+        z[j] = pcl2_math_tanh(sum);
     }
     for (int k = 0; k < 4; ++k) {
         pcl2_real sum = self->w2[k][32];

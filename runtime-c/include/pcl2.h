@@ -129,6 +129,16 @@ static inline pcl2_real pcl2_seconds(int64_t nanoseconds)
     return (pcl2_real)nanoseconds / PCL2_R(1e9);
 }
 
+/* A time in seconds as nanoseconds, to the nearest; 0 for a negative or a bad one, at most 2^62 (146 years). */
+static inline int64_t pcl2_nanoseconds(pcl2_real seconds)
+{
+    const pcl2_real limit = PCL2_R(4611686018.427387904);
+    if (!(seconds > PCL2_R(0.0))) {
+        return 0;
+    }
+    return seconds < limit ? (int64_t)(seconds * PCL2_R(1e9) + PCL2_R(0.5)) : INT64_C(4611686018427387904);
+}
+
 /* What went wrong since init. All zero: nothing did. */
 struct pcl2_health {
     uint32_t faults;       /* block scans that ended with a status other than 0; stops at 2^32 - 1 */

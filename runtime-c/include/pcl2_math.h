@@ -8,13 +8,13 @@
 #include "pcl2.h"
 
 /* e^x; 0 below the smallest subnormal, infinite above the largest real. */
-pcl2_real pcl2_exp(pcl2_real x);
+pcl2_real pcl2_math_exp(pcl2_real x);
 
 /* e^x - 1, with full digits near 0. */
-pcl2_real pcl2_expm1(pcl2_real x);
+pcl2_real pcl2_math_expm1(pcl2_real x);
 
 /* Hyperbolic tangent. */
-pcl2_real pcl2_tanh(pcl2_real x);
+pcl2_real pcl2_math_tanh(pcl2_real x);
 
 /* The functions of the C library whose results IEEE 754 fixes to the last bit. */
 #if PCL2_REAL_BITS == 64
@@ -23,27 +23,27 @@ pcl2_real pcl2_tanh(pcl2_real x);
 #define PCL2_MATH_EXACT(name) name##f
 #endif
 
-static inline pcl2_real pcl2_sqrt(pcl2_real x)
+static inline pcl2_real pcl2_math_sqrt(pcl2_real x)
 {
     return PCL2_MATH_EXACT(sqrt)(x);
 }
 
-static inline pcl2_real pcl2_fabs(pcl2_real x)
+static inline pcl2_real pcl2_math_fabs(pcl2_real x)
 {
     return PCL2_MATH_EXACT(fabs)(x);
 }
 
-static inline pcl2_real pcl2_floor(pcl2_real x)
+static inline pcl2_real pcl2_math_floor(pcl2_real x)
 {
     return PCL2_MATH_EXACT(floor)(x);
 }
 
-static inline pcl2_real pcl2_ceil(pcl2_real x)
+static inline pcl2_real pcl2_math_ceil(pcl2_real x)
 {
     return PCL2_MATH_EXACT(ceil)(x);
 }
 
-static inline pcl2_real pcl2_trunc(pcl2_real x)
+static inline pcl2_real pcl2_math_trunc(pcl2_real x)
 {
     return PCL2_MATH_EXACT(trunc)(x);
 }

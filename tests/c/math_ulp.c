@@ -19,7 +19,7 @@ struct math_function {
     pcl2_real (*call)(pcl2_real);   /* rises with its argument */
 };
 
-static const struct math_function functions[] = {{"exp", pcl2_exp}, {"expm1", pcl2_expm1}, {"tanh", pcl2_tanh}};
+static const struct math_function functions[] = {{"exp", pcl2_math_exp}, {"expm1", pcl2_math_expm1}, {"tanh", pcl2_math_tanh}};
 
 /* Place of a real among all reals: neighbours differ by 1, both zeros are 0. */
 static int64_t place_of(pcl2_real x)

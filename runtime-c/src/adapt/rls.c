@@ -120,7 +120,7 @@ PCL2_INLINE int32_t pcl2_rls_adapt(struct pcl2_rls_size z, struct pcl2_rls_state
         trace += at.p[i * z.np + i];
     }
     error = y - error;
-    if (pcl2_is_bad(power) || !(pcl2_fabs(error) < limit)) {
+    if (pcl2_is_bad(power) || !(pcl2_math_fabs(error) < limit)) {
         return RLS_SIGNAL;
     }
     if (power < PCL2_R(0.0)) {

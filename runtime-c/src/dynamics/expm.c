@@ -11,7 +11,7 @@ static pcl2_real pcl2_expm_norm(int32_t n, const pcl2_real *m)
     for (int32_t i = 0; i < n; i++) {
         pcl2_real sum = PCL2_R(0.0);
         for (int32_t j = 0; j < n; j++) {
-            sum += pcl2_fabs(m[i * n + j]);
+            sum += pcl2_math_fabs(m[i * n + j]);
         }
         norm = sum > norm ? sum : norm;
     }

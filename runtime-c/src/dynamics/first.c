@@ -15,9 +15,9 @@ PCL2_KERNEL void pcl2_first_tune(struct pcl2_first *self, pcl2_real a, pcl2_real
 {
     const pcl2_real h = pcl2_seconds(T);
     const pcl2_real x = a * h;
-    const int32_t integrator = pcl2_fabs(x) < PCL2_REAL_EPSILON / 4;
-    self->e = pcl2_exp(-x);
-    self->g = integrator ? b * h : -(b / a) * pcl2_expm1(-x);
+    const int32_t integrator = pcl2_math_fabs(x) < PCL2_REAL_EPSILON / 4;
+    self->e = pcl2_math_exp(-x);
+    self->g = integrator ? b * h : -(b / a) * pcl2_math_expm1(-x);
 }
 
 /* A bad u makes y bad, and so does an unstable plant that outgrows the reals: one test holds both. y is stored in

@@ -19,7 +19,7 @@ static struct pcl2_polyroots_complex pcl2_polyroots_mul(struct pcl2_polyroots_co
 static struct pcl2_polyroots_complex pcl2_polyroots_div(struct pcl2_polyroots_complex x, struct pcl2_polyroots_complex y)
 {
     struct pcl2_polyroots_complex z;
-    if (pcl2_fabs(y.re) >= pcl2_fabs(y.im)) {
+    if (pcl2_math_fabs(y.re) >= pcl2_math_fabs(y.im)) {
         const pcl2_real ratio = y.im / y.re;
         const pcl2_real size = y.re + y.im * ratio;
         z.re = (x.re + x.im * ratio) / size;
@@ -36,7 +36,7 @@ static struct pcl2_polyroots_complex pcl2_polyroots_div(struct pcl2_polyroots_co
 /* Within a factor of the square root of 2: exact enough for bounds. */
 static pcl2_real pcl2_polyroots_size(struct pcl2_polyroots_complex z)
 {
-    return pcl2_fabs(z.re) + pcl2_fabs(z.im);
+    return pcl2_math_fabs(z.re) + pcl2_math_fabs(z.im);
 }
 
 /* Coefficient of s^k; 1 for k = n. */
@@ -88,7 +88,7 @@ static struct pcl2_polyroots_complex pcl2_polyroots_newton(int32_t n, const pcl2
     struct pcl2_polyroots_complex p = {PCL2_R(1.0), PCL2_R(0.0)};
     struct pcl2_polyroots_complex slope = {PCL2_R(0.0), PCL2_R(0.0)};
     const struct pcl2_polyroots_complex none = {PCL2_R(0.0), PCL2_R(0.0)};
-    const pcl2_real radius = pcl2_sqrt(z.re * z.re + z.im * z.im);
+    const pcl2_real radius = pcl2_math_sqrt(z.re * z.re + z.im * z.im);
     pcl2_real bound = PCL2_R(1.0);
     for (int32_t i = 0; i < n; i++) {
         slope = pcl2_polyroots_mul(slope, z);
@@ -96,7 +96,7 @@ static struct pcl2_polyroots_complex pcl2_polyroots_newton(int32_t n, const pcl2
         slope.im += p.im;
         p = pcl2_polyroots_mul(p, z);
         p.re += a[i];
-        bound = bound * radius + pcl2_fabs(a[i]);
+        bound = bound * radius + pcl2_math_fabs(a[i]);
     }
     if (pcl2_polyroots_size(p) <= 2 * PCL2_REAL_EPSILON * bound) {
         return none;
@@ -140,7 +140,7 @@ static void pcl2_polyroots_quadratic(pcl2_real a, pcl2_real b, pcl2_real *re, pc
 {
     const pcl2_real half = a / 2;
     const pcl2_real square = half * half - b;
-    const pcl2_real root = pcl2_sqrt(pcl2_fabs(square));
+    const pcl2_real root = pcl2_math_sqrt(pcl2_math_fabs(square));
     if (square < 0) {
         re[0] = re[1] = -half;
         im[0] = root;
@@ -199,6 +199,6 @@ void pcl2_polyroots(int32_t n, const pcl2_real *a, pcl2_real *re, pcl2_real *im)
     pcl2_polyroots_solve(roots, scaled, re, im);
     for (int32_t i = 0; i < n; i++) {
         re[i] *= unit;
-        im[i] = pcl2_fabs(im[i]) * unit <= 1024 * PCL2_REAL_EPSILON * pcl2_fabs(re[i]) ? PCL2_R(0.0) : im[i] * unit;
+        im[i] = pcl2_math_fabs(im[i]) * unit <= 1024 * PCL2_REAL_EPSILON * pcl2_math_fabs(re[i]) ? PCL2_R(0.0) : im[i] * unit;
     }
 }

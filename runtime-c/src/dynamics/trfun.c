@@ -63,11 +63,11 @@ PCL2_KERNEL int32_t pcl2_trfun_check(
     pcl2_polyroots(nden, den, re, im);
     for (int32_t i = 0; i < nden; i++) {
         const pcl2_real growth = pcl2_trfun_growth(h * re[i], h * im[i]);
-        const pcl2_real size = pcl2_fabs(re[i]) + pcl2_fabs(im[i]);
+        const pcl2_real size = pcl2_math_fabs(re[i]) + pcl2_math_fabs(im[i]);
         if (re[i] <= margin * size && !(growth <= worst)) {
             worst = growth;
             left[0] = re[i];
-            left[1] = pcl2_fabs(im[i]);
+            left[1] = pcl2_math_fabs(im[i]);
             fault = 1;
         }
     }

@@ -1,7 +1,7 @@
 /* e^x */
 #include "pcl2_exp_core.h"
 
-pcl2_real pcl2_exp(pcl2_real x)
+pcl2_real pcl2_math_exp(pcl2_real x)
 {
     if (!(x <= PCL2_EXP_LARGEST)) {
         return x > 0 ? pcl2_of_bits(PCL2_EXPONENT_MASK) : x + x;

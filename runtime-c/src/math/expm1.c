@@ -10,7 +10,7 @@ static inline pcl2_real expm1_sum(pcl2_real a, pcl2_real b, pcl2_real *rest)
     return sum;
 }
 
-pcl2_real pcl2_expm1(pcl2_real x)
+pcl2_real pcl2_math_expm1(pcl2_real x)
 {
     if (!(x <= PCL2_EXP_LARGEST)) {
         return x > 0 ? pcl2_of_bits(PCL2_EXPONENT_MASK) : x + x;

@@ -46,9 +46,9 @@ static pcl2_real pcl2_tanh_large(pcl2_real x)
     return y + (((1 - y) - quotient) + quotient * (rest * inverse));
 }
 
-pcl2_real pcl2_tanh(pcl2_real x)
+pcl2_real pcl2_math_tanh(pcl2_real x)
 {
-    const pcl2_real size = pcl2_fabs(x);
+    const pcl2_real size = pcl2_math_fabs(x);
     if (pcl2_exponent(x) < -PCL2_FRACTION_BITS / 2 - 2 || size != size) {
         return x;
     }

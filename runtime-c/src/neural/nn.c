@@ -24,7 +24,7 @@ PCL2_INLINE void pcl2_nn_forward(int32_t m, int32_t n, int32_t h, const pcl2_rea
 {
     const pcl2_real *const output = w + (n + 1) * h;
     for (int32_t j = 0; j < h; ++j) {
-        z[j] = pcl2_tanh(pcl2_nn_neuron(n, w + j * (n + 1), x));
+        z[j] = pcl2_math_tanh(pcl2_nn_neuron(n, w + j * (n + 1), x));
     }
     for (int32_t k = 0; k < m; ++k) {
         o[k] = pcl2_nn_neuron(h, output + k * (h + 1), z);
@@ -54,7 +54,7 @@ PCL2_INLINE pcl2_real pcl2_nn_errors(int32_t m, int32_t n, int32_t h, const pcl2
     pcl2_real size = PCL2_R(0.0);
     for (int32_t k = 0; k < m; ++k) {
         delta[h + k] = eta * (t[k] - o[k]);
-        size += pcl2_fabs(delta[h + k]);
+        size += pcl2_math_fabs(delta[h + k]);
     }
     for (int32_t j = 0; j < h; ++j) {
         pcl2_real sum = output[j] * delta[h];
@@ -62,10 +62,10 @@ PCL2_INLINE pcl2_real pcl2_nn_errors(int32_t m, int32_t n, int32_t h, const pcl2
             sum += output[k * (h + 1) + j] * delta[h + k];
         }
         delta[j] = sum * (PCL2_R(1.0) - z[j] * z[j]);
-        size += pcl2_fabs(delta[j]);
+        size += pcl2_math_fabs(delta[j]);
     }
     for (int32_t i = 0; i < n; ++i) {
-        reach += pcl2_fabs(x[i]);
+        reach += pcl2_math_fabs(x[i]);
     }
     return size * reach;
 }

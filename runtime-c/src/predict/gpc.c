@@ -220,7 +220,7 @@ PCL2_INLINE int32_t pcl2_gpc_design(struct pcl2_gpc_size z, const pcl2_real *p, 
             sum -= mu[q - 1] * p[q + s - 1];
         }
         gain[1 + s] = scale * sum;
-        size += pcl2_fabs(gain[1 + s]);
+        size += pcl2_math_fabs(gain[1 + s]);
     }
     GPC_UNROLL
     for (int32_t s = 1; s <= z.nb - 1 + z.d; ++s) {
@@ -230,7 +230,7 @@ PCL2_INLINE int32_t pcl2_gpc_design(struct pcl2_gpc_size z, const pcl2_real *p, 
             sum -= mu[m + z.d - s] * p[z.na + m];
         }
         gain[z.na + s] = scale * sum;
-        size += pcl2_fabs(gain[z.na + s]);
+        size += pcl2_math_fabs(gain[z.na + s]);
     }
     return pcl2_is_bad(size) ? GPC_SINGULAR : GPC_OK;
 }

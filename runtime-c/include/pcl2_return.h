@@ -1,0 +1,45 @@
+/* The return wire of a link: what the block downstream hands back to the one that drives it, two reals.
+ * The first is the value that is really followed, in the units of the driving output; the second a state. */
+#ifndef PCL2_RETURN_H
+#define PCL2_RETURN_H
+
+#include "pcl2.h"
+
+/* The states, as they stand in the second real. */
+#define PCL2_FOLLOWING 0 /* the value is followed; so is an open return wire */
+#define PCL2_LIMITED_HIGH 1 /* a larger value would not be followed */
+#define PCL2_LIMITED_LOW 2 /* a smaller value would not be followed */
+#define PCL2_WAITING 3 /* not following yet: come to the value first */
+
+/* The state of a return wire; PCL2_FOLLOWING for whatever is no state, and for a value that is no number. */
+static inline int32_t pcl2_return_state(const pcl2_real *back)
+{
+    if (pcl2_is_bad(back[0]) || !(back[1] >= PCL2_R(0.5) && back[1] < PCL2_R(3.5))) {
+        return PCL2_FOLLOWING;
+    }
+    return back[1] < PCL2_R(1.5) ? PCL2_LIMITED_HIGH : back[1] < PCL2_R(2.5) ? PCL2_LIMITED_LOW : PCL2_WAITING;
+}
+
+/* Hands a value and a state back. */
+static inline void pcl2_hand_back(pcl2_real *bk, pcl2_real value, int32_t state)
+{
+    bk[0] = value;
+    bk[1] = (pcl2_real)state;
+}
+
+/* The state as a block with a falling characteristic hands it back: a high limit downstream is a low one upstream. */
+static inline int32_t pcl2_return_reversed(int32_t state)
+{
+    return state == PCL2_LIMITED_HIGH ? PCL2_LIMITED_LOW : state == PCL2_LIMITED_LOW ? PCL2_LIMITED_HIGH : state;
+}
+
+/* 1 when a value has come to the one that a waiting block asked for: equal but for what a characteristic and its
+ * inverse lose, 1e-5 of the value. */
+static inline int32_t pcl2_has_come(pcl2_real value, pcl2_real asked)
+{
+    const pcl2_real distance = value < asked ? asked - value : value - asked;
+    const pcl2_real size = asked < PCL2_R(0.0) ? -asked : asked;
+    return distance <= PCL2_R(1e-5) * (size + PCL2_R(1.0));
+}
+
+#endif
