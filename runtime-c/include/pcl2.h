@@ -7,6 +7,7 @@
 #define PCL2_H
 
 #include <float.h>
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -89,6 +90,9 @@ static inline int32_t pcl2_is_bad(pcl2_real x)
 {
     return (pcl2_bits_of(x) & PCL2_EXPONENT_MASK) == PCL2_EXPONENT_MASK;
 }
+
+/* The bad signal as a constant: an operator cell that nobody wrote yet, an optional port without a wire. */
+#define PCL2_BAD ((pcl2_real)NAN)
 
 /* The bad signal that a block makes itself: a quiet NaN. */
 static inline pcl2_real pcl2_bad(void)

@@ -2,16 +2,13 @@
 
 use crate::draft::{Draft, Scope};
 use pcl2_lang::codes;
-use pcl2_lang::decl::Decl;
+use pcl2_lang::decl::{Decl, OutputDecl, RETURN_OUTPUT};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use rustc_hash::FxHashSet;
 
 /// The largest block number.
 pub(crate) const MAX_NUMBER: u32 = i32::MAX as u32;
-
-/// The port that is reached by name only.
-pub(crate) const RETURN_PORT: &str = "bk";
 
 /// Numbers the blocks of a scope and sorts them by section and number.
 pub(crate) fn number(scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
@@ -51,18 +48,28 @@ pub(crate) fn numbered_ports(draft: &Draft<'_>) -> u32 {
     match draft.decl {
         Some(decl) if draft.statement.outputs.is_empty() => {
             let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
-            let count = output_count(decl, &sizes);
-            let returns =
-                decl.outputs.iter().filter(|output| output.group.is_none() && output.name == RETURN_PORT).count();
-            (count - returns) as u32
+            decl.outputs
+                .iter()
+                .filter(|output| takes_number(output))
+                .map(|output| ports_of(output, &sizes))
+                .sum::<usize>() as u32
         }
         _ => 1,
     }
 }
 
+/// A return wire is reached by name only.
+pub(crate) fn takes_number(output: &OutputDecl) -> bool {
+    output.name != RETURN_OUTPUT
+}
+
+fn ports_of(output: &OutputDecl, sizes: &[i32]) -> usize {
+    kernel::count(output.group.as_ref(), sizes).unwrap_or(0)
+}
+
 /// How many outputs a code has, groups expanded.
 pub(crate) fn output_count(decl: &Decl, sizes: &[i32]) -> usize {
-    decl.outputs.iter().map(|output| kernel::count(output.group.as_ref(), sizes).unwrap_or(0)).sum()
+    decl.outputs.iter().map(|output| ports_of(output, sizes)).sum()
 }
 
 /// The names of a code's outputs, groups expanded: `y1`, `y2`, ..

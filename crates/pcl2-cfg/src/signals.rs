@@ -3,7 +3,7 @@
 use crate::Input;
 use crate::bind::count_word;
 use crate::draft::{Draft, Scope, Wire};
-use crate::number::{RETURN_PORT, output_count, output_names};
+use crate::number::{output_count, output_names, takes_number};
 use pcl2_lang::ast::{Item as Place, Name, Number, Operand, Output};
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, PortDecl};
@@ -103,17 +103,23 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
         [Output::Name(name)] => Some(*name),
         _ => None,
     };
+    let first = match statement.outputs.first() {
+        Some(Output::Name(name)) => Some(*name),
+        Some(Output::Discard(_)) | None => None,
+    };
     let block = BlockId(index as u32);
     let number = scope.drafts[index].number;
     let mut ports = 0;
     let mut outputs = Vec::with_capacity(count);
     for o in 0..count {
         let port = names.get(o).map_or("", String::as_str);
-        let id = match (statement.outputs.get(o), tag) {
+        let declared = pcl2_lang::model::output_decl(decl, &sizes, o).map(|index| &decl.outputs[index]);
+        let numbered = declared.is_some_and(takes_number);
+        let id = match (statement.outputs.get(o), if numbered { tag } else { first }) {
             (Some(Output::Name(name)), _) => named(input, scope, *name),
             (None, Some(tag)) => member(input, scope, tag, port),
             (Some(Output::Discard(span)), _) => push_wire(scope, String::new(), *span),
-            (None, None) if statement.outputs.is_empty() && port != RETURN_PORT => {
+            (None, None) if statement.outputs.is_empty() && numbered => {
                 let number = number.saturating_add(ports);
                 ports += 1;
                 scope.by_number.push(number, block, o as u32);
@@ -121,7 +127,7 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
             }
             (None, None) => push_wire(scope, String::new(), statement.code.span),
         };
-        let inout = declared_inout(decl, &sizes, o);
+        let inout = declared.is_some_and(|output| output.inout);
         let wire = &mut scope.wires[id.0 as usize];
         wire.spoiled |= scope.drafts[index].spoiled;
         wire.writers.reserve_exact(1.max(wire.writers.len()));
@@ -132,10 +138,6 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
     if ports == 0 {
         scope.by_number.push(number, block, 0);
     }
-}
-
-fn declared_inout(decl: &Decl, sizes: &[i32], expanded: usize) -> bool {
-    pcl2_lang::model::output_decl(decl, sizes, expanded).is_some_and(|index| decl.outputs[index].inout)
 }
 
 fn spoil_names(scope: &mut Scope<'_>, index: usize) {

@@ -245,6 +245,7 @@ fn value_text(value: &Value, tail: &Tail) -> String {
             Some(name) => name.clone(),
             None => value.to_string(),
         },
+        Value::Real(value) if value.wide.is_nan() => "bad".to_owned(),
         Value::Real(value) => format!("{:?}", value.wide),
         Value::Ints(_) | Value::Reals(_) => "..".to_owned(),
         Value::Text(text) => format!("{text:?}"),

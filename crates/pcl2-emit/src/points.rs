@@ -430,5 +430,9 @@ fn json_number(out: &mut String, value: Number, scalar: Scalar, width: Width) {
         (Number::Int(value), Scalar::Real) => Real::from_int(value),
         (Number::Real(value), _) => value,
     };
+    if real.wide.is_nan() {
+        out.push_str("null");
+        return;
+    }
     text::number_text(out, real, width);
 }

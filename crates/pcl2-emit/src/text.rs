@@ -8,6 +8,10 @@ const MAX_COMMENT: usize = 160;
 
 /// A real literal in shortest round-trip form.
 pub(crate) fn real(out: &mut String, value: Real, width: Width) {
+    if value.wide.is_nan() {
+        out.push_str("PCL2_BAD");
+        return;
+    }
     number_text(out, value, width);
     if width == Width::F32 {
         out.push('f');

@@ -6,6 +6,12 @@
 use crate::source::Span;
 use crate::types::{Real, Scalar, Value};
 
+/// The output that hands back what is really followed: it takes no number and is reached by name only.
+pub const RETURN_OUTPUT: &str = "bk";
+
+/// The optional port that takes what the block downstream hands back.
+pub const RETURN_PORT: &str = "back";
+
 /// A declared function code.
 #[derive(Clone, Debug)]
 pub struct Decl {
@@ -39,6 +45,8 @@ pub struct Decl {
     pub start: Vec<usize>,
     /// What is kept over power loss: names of outputs or memory.
     pub retain: Vec<String>,
+    /// The port, an index into [`Decl::ports`], that the output [`RETURN_OUTPUT`] answers: the return wire of its link.
+    pub returns: Option<usize>,
     /// The kernel needs its section's period.
     pub period: bool,
     /// The kernel judges its parameters (`pcl2_NAME_check`).

@@ -106,6 +106,7 @@ pub enum Key {
     Tuned,
     Start,
     Retain,
+    Return,
     Period,
     Check,
     Image,
@@ -126,7 +127,9 @@ impl Key {
             Key::Int | Key::Real | Key::Ivec | Key::Vec | Key::Imat | Key::Mat | Key::Text | Key::Time => false,
             Key::Inout | Key::Cell | Key::Fixed | Key::From | Key::Above | Key::To | Key::Tracks => false,
             Key::Initialize | Key::Plant | Key::Control | Key::End | Key::Memory | Key::Work | Key::Tuned => true,
-            Key::Start | Key::Retain | Key::Period | Key::Check | Key::Image | Key::Faults | Key::Bad => true,
+            Key::Start | Key::Retain | Key::Return | Key::Period | Key::Check | Key::Image | Key::Faults | Key::Bad => {
+                true
+            }
             Key::Inline | Key::Simulated | Key::Operator | Key::Example | Key::After | Key::Body => true,
         }
     }
@@ -137,7 +140,7 @@ pub const SECTION_WORDS: [(&str, Key); 4] =
     [("INITIALIZE", Key::Initialize), ("PLANT", Key::Plant), ("CONTROL", Key::Control), ("END", Key::End)];
 
 /// The words of declarations: reserved in `.fc` files.
-pub const DECLARATION_WORDS: [(&str, Key); 32] = [
+pub const DECLARATION_WORDS: [(&str, Key); 33] = [
     ("END", Key::End),
     ("int", Key::Int),
     ("real", Key::Real),
@@ -159,6 +162,7 @@ pub const DECLARATION_WORDS: [(&str, Key); 32] = [
     ("TUNED", Key::Tuned),
     ("START", Key::Start),
     ("RETAIN", Key::Retain),
+    ("RETURN", Key::Return),
     ("PERIOD", Key::Period),
     ("CHECK", Key::Check),
     ("IMAGE", Key::Image),

@@ -112,6 +112,9 @@ impl Real {
     /// Zero in both widths.
     pub const ZERO: Real = Real { wide: 0.0, narrow: 0.0 };
 
+    /// The bad signal: not a number.
+    pub const BAD: Real = Real { wide: f64::NAN, narrow: f32::NAN };
+
     /// An integer as a real.
     pub fn from_int(value: i32) -> Real {
         Real { wide: f64::from(value), narrow: value as f32 }

@@ -6,7 +6,7 @@ use crate::ast::{Line, Name, Number, Operand, Statement};
 use crate::codes;
 use crate::decl::{
     BadRule, Bounds, ConstantDecl, Decl, Direction, Example, Expr, Fault, Field, Group, Image, Item, OutputDecl,
-    ParamDecl, PortDecl, SizeVar, Tail, TypeExpr,
+    ParamDecl, PortDecl, RETURN_OUTPUT, SizeVar, Tail, TypeExpr,
 };
 use crate::diagnostic::Diagnostic;
 use crate::lexer::{Key, Token};
@@ -144,6 +144,7 @@ fn head(context: &mut Context<'_>, outputs: &[raw::Output], call: &raw::Call) ->
         tuned: Vec::new(),
         start: Vec::new(),
         retain: Vec::new(),
+        returns: None,
         period: false,
         check: false,
         image: None,
@@ -225,7 +226,7 @@ fn declare_item(context: &mut Context<'_>, decl: &Decl, item: &raw::Item) -> Ite
         raw::Item::Port(port) => {
             let ty = declare_type(context, decl, &port.ty);
             let tail = declare_tail(context, decl, &port.tail);
-            let default = port.default.as_ref().and_then(|v| default_value(context, v, &ty, &tail));
+            let default = port.default.as_ref().and_then(|v| port_default(context, v, &ty, &tail));
             let group = declare_group(context, decl, port.group.as_ref());
             if port.cell && default.is_none() {
                 complain(context, port.name.span, "expected a default for an operator cell, found none");
@@ -337,6 +338,18 @@ fn declare_name(context: &mut Context<'_>, decl: &Decl, name: Name) -> Expr {
     Expr::Int(0)
 }
 
+/// The default of a real port may be the bad signal: nothing is wired, or no operator wrote yet.
+fn port_default(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, tail: &Tail) -> Option<Value> {
+    match value {
+        raw::Value::Name(name)
+            if *ty == TypeExpr::Scalar(Scalar::Real) && context.symbol_text(name.symbol) == "bad" =>
+        {
+            Some(Value::Real(Real::BAD))
+        }
+        _ => default_value(context, value, ty, tail),
+    }
+}
+
 /// A default value. One value for a vector stands for each element, so it stays a scalar here.
 fn default_value(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, tail: &Tail) -> Option<Value> {
     let scalar = match ty {
@@ -380,6 +393,7 @@ fn clause(context: &mut Context<'_>, lines: &mut Lines<'_>, decl: &mut Decl, cla
         raw::Clause::Tuned(list) => decl.tuned.extend(fields(context, decl, &list)),
         raw::Clause::Start(names) => start(context, decl, &names),
         raw::Clause::Retain(names) => retain(context, decl, &names),
+        raw::Clause::Return(name) => returns(context, decl, name),
         raw::Clause::Period => decl.period = true,
         raw::Clause::Check => decl.check = true,
         raw::Clause::Image(direction, scalar) => image(context, decl, direction, scalar),
@@ -440,6 +454,28 @@ fn retain(context: &mut Context<'_>, decl: &mut Decl, names: &[Name]) {
             complain(context, name.span, format!("expected the name of an output or of memory, found `{text}`"));
         }
         decl.retain.push(text);
+    }
+}
+
+/// The port that `bk` answers: as many of one as of the other.
+fn returns(context: &mut Context<'_>, decl: &mut Decl, name: Name) {
+    let text = context.symbol_text(name.symbol).to_owned();
+    let Some(index) = decl.ports().position(|port| port.name == text) else {
+        return complain(context, name.span, format!("expected the name of a port, found `{text}`"));
+    };
+    let count = |group: Option<&Group>| group.map(|group| group.count.clone());
+    let port = decl.ports().nth(index).map(|port| (port.ty.clone(), count(port.group.as_ref())));
+    let pair = TypeExpr::Vector(Scalar::Real, Expr::Int(2));
+    let wire = decl.outputs.iter().find(|output| output.name == RETURN_OUTPUT && output.ty == pair);
+    let answers = |(ty, group): (TypeExpr, Option<Expr>)| {
+        ty == TypeExpr::Scalar(Scalar::Real) && wire.is_some_and(|wire| count(wire.group.as_ref()) == group)
+    };
+    if port.is_some_and(answers) {
+        decl.returns = Some(index);
+    } else {
+        let message =
+            format!("expected a real port and as many outputs vec[2] {RETURN_OUTPUT} for RETURN, found others");
+        complain(context, name.span, message);
     }
 }
 

@@ -179,6 +179,7 @@ pub enum Clause {
     Tuned(Vec<Field>),
     Start(Vec<Name>),
     Retain(Vec<Name>),
+    Return(Name),
     Period,
     Check,
     Image(Name, Scalar),
