@@ -24,7 +24,7 @@ pub struct Config {
     /// How many scans; without it, as long as the stimulus, else ten.
     steps: Option<u64>,
     /// Arguments of check, build and run.
-    args: Vec<String>,
+    pub args: Vec<String>,
     /// Arguments of run alone.
     run: Vec<String>,
     /// Snapshots that must be there.

@@ -20,6 +20,7 @@ mod number;
 mod order;
 mod params;
 mod period;
+mod renumber;
 mod seal;
 mod sections;
 mod signals;
@@ -27,6 +28,7 @@ mod sizes;
 
 pub use files::{FileText, wanted_files};
 pub use period::check_period;
+pub use renumber::{Edit, edited, renumber};
 
 use composite::Composites;
 use draft::Scope;

@@ -21,6 +21,8 @@ pub(crate) enum Command {
     Build(BuildArgs),
     /// Run a program, with its simulated plant if it has one
     Run(crate::run::RunArgs),
+    /// Give sources their canonical layout
+    Fmt(FmtArgs),
     /// List the function codes, or describe one
     Blocks(BlocksArgs),
     /// Explain a diagnostic
@@ -138,6 +140,23 @@ pub(crate) enum Part {
     Control,
     /// The simulated process
     Plant,
+}
+
+/// `pcl2 fmt`
+#[derive(Args, Debug)]
+pub(crate) struct FmtArgs {
+    /// A .cfg file, or a folder with pcl2.toml
+    #[arg(required = true, value_name = "PATH")]
+    pub(crate) paths: Vec<PathBuf>,
+    /// Number the blocks 1, 2, 3 .. in order of execution, and change what refers to numbers
+    #[arg(long)]
+    pub(crate) renumber: bool,
+    /// Write nothing; exit with 1 when a file would change
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// A folder with function codes of your own
+    #[arg(long, value_name = "DIR")]
+    pub(crate) blocks: Vec<PathBuf>,
 }
 
 /// `pcl2 blocks`

@@ -7,6 +7,7 @@ mod check;
 mod config;
 mod console;
 mod explain;
+mod fmt;
 mod io;
 mod outcome;
 mod output;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::check(&args),
         Command::Build(args) => build::build(&args),
         Command::Run(args) => run::run(&args),
+        Command::Fmt(args) => fmt::fmt(&args),
         Command::Blocks(args) => blocks::blocks(&args),
         Command::Explain(args) => explain::explain(&args),
     };

@@ -88,6 +88,36 @@ fn load_for(path: &Path, common: &CommonArgs, purpose: Use) -> Result<Project, O
     })
 }
 
+/// A source that is to be written anew.
+pub(crate) struct Draft {
+    /// All texts.
+    pub(crate) sources: Sources,
+    /// The source, if it could be read: its place and its text.
+    pub(crate) source: Option<(PathBuf, FileId)>,
+    /// Everything there is to say, in order.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Errors beyond the limit.
+    pub(crate) left_out: usize,
+    /// The changes that give its blocks new numbers, if they are asked for.
+    pub(crate) edits: Vec<pcl2_cfg::Edit>,
+}
+
+/// Reads the source at a path and parses it; the program is looked at for new numbers alone.
+pub(crate) fn load_draft(path: &Path, common: &CommonArgs, renumber: bool) -> Draft {
+    let mut loader = Loader::default();
+    let place = loader.place(path);
+    let mut edits = Vec::new();
+    if let Some(file) = place.source {
+        let tree = syntax::parse(&loader.sources, file, &mut loader.symbols, &mut loader.diagnostics);
+        if renumber && !loader.diagnostics.iter().any(Diagnostic::is_error) {
+            edits = loader.renumber(file, &tree, &place, common);
+        }
+    }
+    let mut diagnostics = loader.diagnostics;
+    let left_out = diagnostic::finish(&mut diagnostics, false);
+    Draft { sources: loader.sources, source: place.path.zip(place.source), diagnostics, left_out, edits }
+}
+
 /// Loads a program for a command that needs it whole: prints the diagnostics, and stops at errors.
 pub(crate) fn load_verified(path: &Path, common: &CommonArgs) -> Result<(Project, Verified), Outcome> {
     let mut project = load_for(path, common, Use::Run)?;
@@ -120,6 +150,8 @@ fn period(common: &CommonArgs, config: &Config, diagnostics: &mut Vec<Diagnostic
 struct Place {
     /// The source's file, if it could be read.
     source: Option<FileId>,
+    /// The source's path.
+    path: Option<PathBuf>,
     /// The project's folder: parameter files live below it.
     root: PathBuf,
     /// The file's stem.
@@ -146,8 +178,9 @@ impl Loader {
         };
         let stem = source.as_deref().and_then(Path::file_stem).unwrap_or(path.as_os_str());
         let stem = stem.to_string_lossy().into_owned();
-        let source = source.and_then(|source| self.read_source(&source, MAX_SOURCE));
-        Place { source, root, stem, config }
+        let path = source;
+        let source = path.as_deref().and_then(|source| self.read_source(source, MAX_SOURCE));
+        Place { source, path, root, stem, config }
     }
 
     fn folder(&mut self, path: &Path) -> (Option<PathBuf>, PathBuf, Config) {
@@ -291,6 +324,34 @@ impl Loader {
         (verified, lines)
     }
 
+    fn renumber(
+        &mut self,
+        file: FileId,
+        tree: &syntax::Tree,
+        place: &Place,
+        common: &CommonArgs,
+    ) -> Vec<pcl2_cfg::Edit> {
+        let catalogue = self.catalogue(place, common);
+        let options = Options {
+            name: place.stem.clone(),
+            period: None,
+            width: Width::default(),
+            plant: Vec::new(),
+            substeps: 1,
+            tunable: pcl2_cfg::Tunable::All,
+        };
+        let input = Input {
+            sources: &self.sources,
+            file,
+            tree,
+            symbols: &self.symbols,
+            catalogue: &catalogue,
+            files: &FxHashMap::default(),
+            options: &options,
+        };
+        pcl2_cfg::renumber(&input, &mut self.diagnostics).unwrap_or_default()
+    }
+
     /// What only kernels can judge: each is asked once about the parameters as written.
     fn refusals(&mut self, verified: &Verified) {
         let clock = Instant::now();
@@ -383,7 +444,8 @@ fn read_parameters(name: &str, root: &Path) -> Result<Vec<u8>, String> {
 /// The catalogue with the user's blocks of the command line; `None` after printing what is wrong with them.
 pub(crate) fn catalogue(common: &CommonArgs) -> Option<Catalogue> {
     let mut loader = Loader::default();
-    let place = Place { source: None, root: PathBuf::from("."), stem: String::new(), config: Config::default() };
+    let place =
+        Place { source: None, path: None, root: PathBuf::from("."), stem: String::new(), config: Config::default() };
     let catalogue = loader.catalogue(&place, common);
     let left_out = diagnostic::finish(&mut loader.diagnostics, common.strict);
     console::diagnostics(&loader.diagnostics, &loader.sources, left_out);

@@ -11,6 +11,7 @@ pub mod codes;
 pub mod decl;
 pub mod declare;
 pub mod diagnostic;
+pub mod format;
 pub mod kernel;
 pub mod lexer;
 pub mod model;

@@ -36,12 +36,17 @@ pub struct SourceFile {
     pub text: String,
     /// The bytes as read, kept only where the text differs from them.
     pub raw: Option<Box<[u8]>>,
+    /// A byte order mark stood before it.
+    pub marked: bool,
     line_starts: Vec<u32>,
     shown: OnceLock<Option<String>>,
 }
 
 /// Stands for each byte that is not UTF-8. It is no legal character outside comments.
 pub const NOT_TEXT: char = '\u{1a}';
+
+/// The byte order mark of UTF-8.
+pub const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// All files of one run of the compiler.
 #[derive(Clone, Debug, Default)]
@@ -85,8 +90,9 @@ impl Sources {
 
 impl SourceFile {
     fn new(name: String, mut bytes: Vec<u8>) -> SourceFile {
-        if bytes.starts_with(b"\xef\xbb\xbf") {
-            bytes.drain(..3);
+        let marked = bytes.starts_with(MARK);
+        if marked {
+            bytes.drain(..MARK.len());
         }
         let (text, raw) = match String::from_utf8(bytes) {
             Ok(text) => (text, None),
@@ -96,7 +102,12 @@ impl SourceFile {
             }
         };
         let line_starts = line_starts(text.as_bytes());
-        SourceFile { name, text, raw, line_starts, shown: OnceLock::new() }
+        SourceFile { name, text, raw, marked, line_starts, shown: OnceLock::new() }
+    }
+
+    /// The bytes as read, without a byte order mark.
+    pub fn bytes(&self) -> &[u8] {
+        self.raw.as_deref().unwrap_or(self.text.as_bytes())
     }
 
     /// The text for people: what has no shape of its own stands as `?`.
