@@ -16,6 +16,33 @@ pcl2_real pcl2_math_expm1(pcl2_real x);
 /* Hyperbolic tangent. */
 pcl2_real pcl2_math_tanh(pcl2_real x);
 
+/* Natural logarithm; minus infinity at 0, NaN below it. */
+pcl2_real pcl2_math_log(pcl2_real x);
+
+/* Logarithm to the base 10; exact at powers of ten. */
+pcl2_real pcl2_math_log10(pcl2_real x);
+
+/* ln(1 + x), with full digits near 0. */
+pcl2_real pcl2_math_log1p(pcl2_real x);
+
+/* x^y; NaN for a negative x with a y that is no whole number. */
+pcl2_real pcl2_math_pow(pcl2_real x, pcl2_real y);
+
+/* Sine, cosine and tangent of an angle in rad, of any size; NaN for an infinite one. */
+pcl2_real pcl2_math_sin(pcl2_real x);
+pcl2_real pcl2_math_cos(pcl2_real x);
+pcl2_real pcl2_math_tan(pcl2_real x);
+
+/* Inverse sine, -pi/2 to pi/2, and inverse cosine, 0 to pi; NaN beyond 1. */
+pcl2_real pcl2_math_asin(pcl2_real x);
+pcl2_real pcl2_math_acos(pcl2_real x);
+
+/* Inverse tangent, -pi/2 to pi/2. */
+pcl2_real pcl2_math_atan(pcl2_real x);
+
+/* The angle of the point (x, y), -pi to pi. */
+pcl2_real pcl2_math_atan2(pcl2_real y, pcl2_real x);
+
 /* The functions of the C library whose results IEEE 754 fixes to the last bit. */
 #if PCL2_REAL_BITS == 64
 #define PCL2_MATH_EXACT(name) name

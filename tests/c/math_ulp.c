@@ -1,25 +1,41 @@
-/* Compares an elementary function of the runtime with a table of true values, and sweeps it for monotony.
+/* Compares an elementary function of the runtime with a table of true values, and sweeps it for monotony; in a build
+ * with floats also with the C library's double function, all over the range.
  *
  *     cc -std=c99 -O2 -ffp-contract=off -I CONFIG -I runtime-c/include \
  *        tests/c/math_ulp.c runtime-c/src/math/NAME.c -lm -o math_ulp
  *     ./math_ulp NAME tests/reference/math/NAME.f64.csv
  *
- * for every NAME in the list below (link all of them: src/math/exp.c expm1.c tanh.c). CONFIG holds a pcl2_config.h;
- * the table's width must be its width (.f64 or .f32). Prints one line and exits with 0 when no value is more
- * than 1 ulp from the truth and the function never falls; with 1 when it is not so; with 2 for wrong usage.
- * Rows of the table: x,y,rest with the bits of x and of the nearest y, and the rest in ulp (tests/reference/math_tables.py). */
+ * for every NAME in the list below (link all of runtime-c/src/math). CONFIG holds a pcl2_config.h; the table's width
+ * must be its width (.f64 or .f32). Prints one line and exits with 0 when no value is more than 1 ulp from the truth
+ * and the function never turns back; with 1 when it is not so; with 2 for wrong usage. Without arguments it prints the
+ * names. Rows of the table: x,y,rest or x,z,y,rest with the bits of the arguments and of the nearest y, and the rest in
+ * ulp (tests/reference/math_tables.py). */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "pcl2_math.h"
 
 struct math_function {
-    const char *name;               /* as in the table's file name */
-    pcl2_real (*call)(pcl2_real);   /* rises with its argument */
+    const char *name;                        /* as in the table's file name */
+    pcl2_real (*call)(pcl2_real);            /* NULL for a function of two arguments */
+    pcl2_real (*call2)(pcl2_real, pcl2_real);
+    double (*libm)(double);
+    double (*libm2)(double, double);
+    int32_t rises;                           /* 1 or -1: monotone from low to high; 0: not swept */
+    double low;
+    double high;
 };
 
-static const struct math_function functions[] = {{"exp", pcl2_math_exp}, {"expm1", pcl2_math_expm1}, {"tanh", pcl2_math_tanh}};
+#define ONE(name, rises, low, high) {#name, pcl2_math_##name, NULL, name, NULL, rises, low, high}
+#define TWO(name) {#name, NULL, pcl2_math_##name, NULL, name, 0, 0.0, 0.0}
+static const struct math_function functions[] = {
+    ONE(exp, 1, -INFINITY, INFINITY), ONE(expm1, 1, -INFINITY, INFINITY), ONE(tanh, 1, -INFINITY, INFINITY),
+    ONE(log, 1, 0.0, INFINITY),       ONE(log10, 1, 0.0, INFINITY),       ONE(log1p, 1, -1.0, INFINITY),
+    ONE(sin, 1, -1.5707, 1.5707),     ONE(cos, -1, 0.0, 3.1415),          ONE(tan, 1, -1.5707, 1.5707),
+    ONE(asin, 1, -1.0, 1.0),          ONE(acos, -1, -1.0, 1.0),           ONE(atan, 1, -INFINITY, INFINITY),
+    TWO(pow),                         TWO(atan2)};
 
 /* Place of a real among all reals: neighbours differ by 1, both zeros are 0. */
 static int64_t place_of(pcl2_real x)
@@ -49,72 +65,128 @@ static double error_of(pcl2_real got, pcl2_bits expected, double rest)
     return error < 0 ? -error : error;
 }
 
-/* Runs of neighbours from points spread over all arguments: counts the falls. */
-static int64_t falls_of(pcl2_real (*call)(pcl2_real), int64_t points, int64_t run)
+/* Of a run of neighbours from a place on: how often the function turns back. */
+static int64_t turns_from(const struct math_function *f, int64_t place, int64_t run)
 {
-    const int64_t end = place_of(pcl2_of_bits(PCL2_EXPONENT_MASK));
-    int64_t falls = 0;
-    for (int64_t i = 0; i < points; i++) {
-        const int64_t start = (i - points / 2) * (end / (points / 2)) + i;
-        pcl2_real before = call(real_at(start));
-        for (int64_t j = 1; j < run && start + j <= end; j++) {
-            const pcl2_real now = call(real_at(start + j));
-            falls += !(now >= before);
-            before = now;
-        }
+    int64_t turns = 0;
+    if (!((double)real_at(place) >= f->low && (double)real_at(place + run) <= f->high)) {
+        return 0;
     }
-    return falls;
+    pcl2_real before = f->call(real_at(place));
+    for (int64_t j = 1; j < run; j++) {
+        const pcl2_real now = f->call(real_at(place + j));
+        turns += f->rises > 0 ? !(now >= before) : !(now <= before);
+        before = now;
+    }
+    return turns;
 }
 
-/* Pairs of neighbours at even steps between two arguments, where the function is neither flat nor a line. */
-static int64_t falls_between(pcl2_real (*call)(pcl2_real), pcl2_real low, pcl2_real high, int32_t points)
+/* Runs from points spread over all arguments, and from even steps where the function is neither flat nor a line. */
+static int64_t turns_of(const struct math_function *f)
 {
-    int64_t falls = 0;
-    for (int32_t i = 0; i < points; i++) {
-        const int64_t place = place_of(low + (high - low) * ((pcl2_real)i / (pcl2_real)points));
-        pcl2_real before = call(real_at(place));
-        for (int64_t j = 1; j < 8; j++) {
-            const pcl2_real now = call(real_at(place + j));
-            falls += !(now >= before);
-            before = now;
-        }
+    const int64_t end = place_of(pcl2_of_bits(PCL2_EXPONENT_MASK)) - 64;
+    const int64_t points = 20000;
+    int64_t turns = 0;
+    for (int64_t i = 0; i < points; i++) {
+        turns += turns_from(f, (i - points / 2) * (end / (points / 2)) + i, 64);
     }
-    return falls;
+    for (int32_t i = -300000; i < 300000; i++) {
+        turns += turns_from(f, place_of((pcl2_real)i / PCL2_R(1.5e5)), 8);
+        turns += i % 3 == 0 ? turns_from(f, place_of((pcl2_real)i / PCL2_R(1e4)), 8) : 0;
+    }
+    return turns;
+}
+
+struct worst {
+    double error;     /* ulp */
+    pcl2_real x;
+    pcl2_real z;
+};
+
+static void judge(struct worst *worst, double error, pcl2_real x, pcl2_real z)
+{
+    if (error > worst->error) {
+        worst->error = error;
+        worst->x = x;
+        worst->z = z;
+    }
+}
+
+/* Rows that were compared. */
+static long compare_table(const struct math_function *f, FILE *table, struct worst *worst)
+{
+    char line[160];
+    long rows = 0;
+    if (fgets(line, sizeof line, table) == NULL) {
+        return 0;
+    }
+    while (fgets(line, sizeof line, table) != NULL) {
+        char *at = line;
+        const pcl2_real x = pcl2_of_bits((pcl2_bits)strtoull(at, &at, 16));
+        const pcl2_real z = f->call != NULL ? x : pcl2_of_bits((pcl2_bits)strtoull(at + 1, &at, 16));
+        const pcl2_bits y = (pcl2_bits)strtoull(at + 1, &at, 16);
+        judge(worst, error_of(f->call != NULL ? f->call(x) : f->call2(x, z), y, strtod(at + 1, NULL)), x, z);
+        rows++;
+    }
+    return rows;
+}
+
+#if PCL2_REAL_BITS == 32
+/* Error against a double that is right to far more digits. */
+static double error_beside(pcl2_real got, double truth)
+{
+    const pcl2_real nearest = (pcl2_real)truth;
+    if (pcl2_is_bad(nearest) || nearest == 0) {
+        return error_of(got, pcl2_bits_of(nearest), 0.0);
+    }
+    int exponent;
+    frexp((double)nearest, &exponent);
+    return fabs((double)got - truth) / ldexp(1.0, exponent < -125 ? -149 : exponent - 24);
+}
+
+/* Every 5003rd float, or pairs of floats that run through each other. */
+static void compare_libm(const struct math_function *f, struct worst *worst)
+{
+    uint32_t other = 1;
+    for (uint32_t bits = 0; bits < UINT32_MAX - 5003; bits += 5003) {
+        const pcl2_real x = pcl2_of_bits(bits);
+        other = other * UINT32_C(1664525) + UINT32_C(1013904223);
+        const pcl2_real z = f->call != NULL ? x : pcl2_of_bits(other);
+        const pcl2_real y = f->call != NULL ? f->call(x) : f->call2(x, z);
+        judge(worst, error_beside(y, f->call != NULL ? f->libm((double)x) : f->libm2((double)x, (double)z)), x, z);
+    }
+}
+#endif
+
+static int compare(const struct math_function *f, FILE *table)
+{
+    struct worst worst = {0.0, PCL2_R(0.0), PCL2_R(0.0)};
+    const long rows = compare_table(f, table, &worst);
+#if PCL2_REAL_BITS == 32
+    compare_libm(f, &worst);
+#endif
+    const int64_t turns = f->rises == 0 ? 0 : turns_of(f);
+    printf("%s f%d: %ld rows, worst %.4f ulp at %a, %a; turns back %" PRId64 " times\n", f->name, PCL2_REAL_BITS, rows,
+           worst.error, (double)worst.x, (double)worst.z, turns);
+    return rows > 0 && worst.error <= 1.0 && turns == 0 ? 0 : 1;
 }
 
 int main(int argc, char **argv)
 {
-    char line[128];
-    double worst = 0.0;
-    pcl2_bits worst_at = 0;
-    long rows = 0;
-    const struct math_function *function = NULL;
     for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
-        if (argc == 3 && strcmp(argv[1], functions[i].name) == 0) {
-            function = &functions[i];
+        if (argc == 1) {
+            puts(functions[i].name);
+        } else if (argc == 3 && strcmp(argv[1], functions[i].name) == 0) {
+            FILE *table = fopen(argv[2], "r");
+            if (table != NULL) {
+                const int result = compare(&functions[i], table);
+                fclose(table);
+                return result;
+            }
         }
     }
-    FILE *table = function == NULL ? NULL : fopen(argv[2], "r");
-    if (table == NULL || fgets(line, sizeof line, table) == NULL) {
-        fprintf(stderr, "usage: math_ulp NAME TABLE\n");
-        return 2;
+    if (argc != 1) {
+        fprintf(stderr, "usage: math_ulp [NAME TABLE]\n");
     }
-    while (fgets(line, sizeof line, table) != NULL) {
-        char *at = line;
-        const pcl2_bits x = (pcl2_bits)strtoull(at, &at, 16);
-        const pcl2_bits y = (pcl2_bits)strtoull(at + 1, &at, 16);
-        const double error = error_of(function->call(pcl2_of_bits(x)), y, strtod(at + 1, NULL));
-        rows++;
-        if (error > worst) {
-            worst = error;
-            worst_at = x;
-        }
-    }
-    fclose(table);
-    const int64_t falls = falls_of(function->call, 20000, 64) +
-                          falls_between(function->call, PCL2_R(-2.0), PCL2_R(2.0), 300000) +
-                          falls_between(function->call, PCL2_R(-30.0), PCL2_R(30.0), 100000);
-    printf("%s f%d: %ld rows, worst %.4f ulp at 0x%" PRIx64 ", %" PRId64 " falls\n", function->name, PCL2_REAL_BITS, rows,
-           worst, (uint64_t)worst_at, falls);
-    return rows > 0 && worst <= 1.0 && falls == 0 ? 0 : 1;
+    return argc == 1 ? 0 : 2;
 }

@@ -5,9 +5,12 @@
 writes tests/reference/math/NAME.f64.csv and NAME.f32.csv, rows x,y,rest in ascending x: x and y as the bits of the
 format in hexadecimal, y the nearest value of the format, rest = (true value - y) in units of the last place of y,
 so the true value is known to some seven digits more than the format holds. A rest of 0 with a y that is
-infinite or not a number: the function's special value itself. tests/c/math_ulp.c reads them.
+infinite or not a number: the function's special value itself. Functions of two arguments have a column z behind x.
+tests/c/math_ulp.c reads them.
 """
 
+import itertools
+import math
 import os
 import random
 import struct
@@ -128,15 +131,157 @@ def arguments(name, width, rng):
     return sorted(keys.values(), key=lambda x: (x != x, x))
 
 
+# The functions below have shorter tables: arguments spread over what they are made of, and their hard places.
+
+INF, NAN = float("inf"), float("nan")
+UNARY = ("log", "log10", "log1p", "sin", "cos", "tan", "asin", "acos", "atan")
+
+
+def unary(name, x):
+    """A special value as a float, any other as a multiple-precision number."""
+    odd = name in ("log1p", "sin", "tan", "asin", "atan")
+    if x != x or (odd and x == 0):
+        return x
+    if abs(x) == INF and name in ("sin", "cos", "tan", "asin", "acos"):
+        return NAN
+    if abs(x) == INF:
+        return math.copysign(math.pi / 2, x) if name == "atan" else x if x > 0 else NAN
+    if (name in ("asin", "acos") and abs(x) > 1) or (name.startswith("log") and x < (-1 if name == "log1p" else 0)):
+        return NAN
+    if x == (-1 if name == "log1p" else 0) and name.startswith("log"):
+        return -INF
+    with mpmath.workprec(1500 if name in ("sin", "cos", "tan") else 300):
+        return getattr(mpmath, name)(mpmath.mpf(x))
+
+
+def power(x, y):
+    """x^y with the special values of C99 F.9.4.4."""
+    if x == 1 or y == 0:
+        return 1.0
+    if x != x or y != y:
+        return NAN
+    odd = abs(y) < 2.0**60 and y == int(y) and int(y) % 2 == 1
+    sign = -1.0 if math.copysign(1, x) < 0 and odd else 1.0
+    if x == 0 or abs(x) == INF:
+        return sign * (INF if (x == 0) == (y < 0) else 0.0)
+    if abs(y) == INF:
+        return 1.0 if x == -1 else INF if (abs(x) > 1) == (y > 0) else 0.0
+    if x < 0 and y != int(y):
+        return NAN
+    turns = y * (mpmath.log(abs(x), 2) if x != -1 else 0)
+    if abs(turns) > 1100:
+        return sign * (INF if turns > 0 else 0.0)
+    return sign * mpmath.power(abs(mpmath.mpf(x)), mpmath.mpf(y))
+
+
+def angle(y, x):
+    """The angle of the point (x, y); signs of zeros count, as C99 F.9.1.4 has it."""
+    if x != x or y != y:
+        return NAN
+    sign = math.copysign(1, y)
+    if abs(x) == INF or abs(y) == INF or y == 0:
+        rise = 1 if abs(y) == INF else 0
+        run = 0 if abs(x) != INF and abs(y) == INF else math.copysign(1, x)
+        size = mpmath.atan2(rise, run)
+        return sign * (0.0 if size == 0 else size)
+    return mpmath.atan2(mpmath.mpf(y), mpmath.mpf(x))
+
+
+def places(name, width):
+    """Where the function or its algorithm changes."""
+    halves = {"asin": (0.5, -0.5, 1.0, -1.0), "acos": (0.5, -0.5, 1.0, -1.0), "atan": (1.0, -1.0)}
+    if name.startswith("log"):
+        return [1.0, 2.0, 0.5, 2.0**0.5, 10.0, 1000.0] if name != "log1p" else [0.4142135623730951, -0.5, 1.0, 1e-8]
+    if name in halves:
+        return list(halves[name]) + [math.tan((i + 0.5) / 8) if name == "atan" else (i + 0.5) / 9 for i in range(8)]
+    turns = [i * math.pi / 4 for i in (-3, -2, -1, 1, 2, 3, 4, 6, 7, 40, 1000001)]
+    return turns + [400.0 if width == 32 else 1.6e6]
+
+
+def spread(name, width, rng, count):
+    """Arguments of every size, half of them where the function is curved."""
+    low, high = {"asin": (-1, 1), "acos": (-1, 1), "log1p": (-1, 3)}.get(name, (0, 3) if name[:3] == "log" else (-8, 8))
+    largest = FORMATS[width]["bias"]
+    for _ in range(count):
+        yield rng.uniform(low, high)
+        sign = 1 if name in ("log", "log10") else rng.choice((-1, 1))
+        yield sign * 2.0 ** (rng.uniform(-30, 0) if low == -1 else rng.uniform(1 - largest, largest))
+
+
+def sample(name, width, rng):
+    count = 150 if width == 64 else 60
+    xs = special(width) + list(spread(name, width, rng, count))
+    for x in places(name, width):
+        xs += around(x, width, 2)
+    if name in ("sin", "cos", "tan"):
+        xs += [2.0**k for k in range(8, FORMATS[width]["bias"], 37 if width == 64 else 5)]
+        xs += nearest_quarters(width)
+    keys = {bits_of(x, width): real_of(bits_of(x, width), width) for x in xs}
+    return sorted(keys.values(), key=lambda x: (x != x, x, math.copysign(1, x)))
+
+
+def nearest_quarters(width):
+    """For each power of 2 the whole number times it that lies nearest to a multiple of pi/2, by continued fractions."""
+    f = FORMATS[width]
+    found = []
+    with mpmath.workprec(3000):
+        for e in range(0, f["bias"] - f["fraction"], 60 if width == 64 else 9):
+            ratio = mpmath.ldexp(2, e) / mpmath.pi
+            last, now, rest = 0, 1, ratio - mpmath.floor(ratio)
+            while now < 2 ** (f["fraction"] + 1):
+                best, rest = now, 1 / rest
+                last, now = now, int(mpmath.floor(rest)) * now + last
+                rest -= mpmath.floor(rest)
+            found.append(math.ldexp(best, e))
+    return found
+
+
+def pairs(name, width, rng):
+    some = [0.0, 1.0, 2.0, 3.0, 0.5, 1e30, 2.0 ** (1 - FORMATS[width]["bias"]), INF]
+    some = [s * x for x in some for s in (1, -1)] + [NAN]
+    found = list(itertools.product(some, some))
+    for _ in range(200 if width == 64 else 100):
+        if name == "atan2":
+            y, x = rng.uniform(-1, 1), rng.uniform(-1, 1)
+            found += [(y, x), (y * 2.0 ** rng.uniform(-100, 100), x)]
+        else:
+            end = FORMATS[width]["bias"] + FORMATS[width]["fraction"]
+            x = 2.0 ** (rng.uniform(-1, 1) * (FORMATS[width]["bias"] - 1))
+            found += [(x, rng.uniform(-1, 1) * end / abs(math.log2(x))), (rng.uniform(0, 10), rng.uniform(-20, 20))]
+            x = 1 + rng.uniform(-1, 1) * 2.0 ** rng.uniform(-20, -2)
+            found.append((x, rng.uniform(-1, 1) * end / abs(math.log2(x))))
+    bits = {(bits_of(a, width), bits_of(b, width)) for a, b in found}
+    return [(real_of(a, width), real_of(b, width)) for a, b in sorted(bits)]
+
+
+def line(arguments, value, width):
+    if isinstance(value, float) and (value != value or abs(value) == INF or value == 0):
+        y, rest = bits_of(value, width), 0
+    else:
+        y, rest = rounded(mpmath.mpf(value), width)
+    digits = width // 4
+    bits = [bits_of(x, width) for x in arguments] + [y]
+    return ",".join(f"0x{b:0{digits}x}" for b in bits) + f",{mpmath.nstr(mpmath.mpf(rest), 7)}"
+
+
+def write(folder, name, width, lines):
+    with open(os.path.join(folder, f"{name}.f{width}.csv"), "w", newline="\n") as out:
+        out.write("\n".join(lines) + "\n")
+
+
 def main():
     folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "math")
     os.makedirs(folder, exist_ok=True)
-    for name in ("exp", "expm1", "tanh"):
-        for width in (64, 32):
+    for width in (64, 32):
+        for name in ("exp", "expm1", "tanh"):
             rng = random.Random(f"{name} {width}")
-            lines = ["x,y,rest"] + [row(name, x, width) for x in arguments(name, width, rng)]
-            with open(os.path.join(folder, f"{name}.f{width}.csv"), "w", newline="\n") as out:
-                out.write("\n".join(lines) + "\n")
+            write(folder, name, width, ["x,y,rest"] + [row(name, x, width) for x in arguments(name, width, rng)])
+        for name in UNARY:
+            xs = sample(name, width, random.Random(f"{name} {width}"))
+            write(folder, name, width, ["x,y,rest"] + [line((x,), unary(name, x), width) for x in xs])
+        for name, true in (("pow", power), ("atan2", angle)):
+            points = pairs(name, width, random.Random(f"{name} {width}"))
+            write(folder, name, width, ["x,z,y,rest"] + [line(point, true(*point), width) for point in points])
 
 
 if __name__ == "__main__":

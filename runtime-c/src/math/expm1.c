@@ -1,15 +1,6 @@
 /* e^x - 1 */
 #include "pcl2_exp_core.h"
 
-/* a + b = sum + *rest exactly, whatever their order (Knuth, The Art of Computer Programming 2, 4.2.2). */
-static inline pcl2_real expm1_sum(pcl2_real a, pcl2_real b, pcl2_real *rest)
-{
-    const pcl2_real sum = a + b;
-    const pcl2_real part = sum - a;
-    *rest = (a - (sum - part)) + (b - part);
-    return sum;
-}
-
 pcl2_real pcl2_math_expm1(pcl2_real x)
 {
     if (!(x <= PCL2_EXP_LARGEST)) {
@@ -26,7 +17,6 @@ pcl2_real pcl2_math_expm1(pcl2_real x)
     const pcl2_real unit = e.k > 2 * PCL2_FRACTION_BITS ? PCL2_R(0.0) : pcl2_power_of_2(-e.k);
     const pcl2_real whole = 1 - unit;
     const pcl2_real whole_rest = (1 - whole) - unit;
-    pcl2_real rest;
-    const pcl2_real head = expm1_sum(whole, e.head, &rest);
-    return pcl2_exp_scale(head + (e.tail + (rest + whole_rest)), e.k);
+    const struct pcl2_pair sum = pcl2_pair_sum(whole, e.head);
+    return pcl2_exp_scale(sum.head + (e.tail + (sum.tail + whole_rest)), e.k);
 }

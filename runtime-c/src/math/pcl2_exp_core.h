@@ -1,10 +1,10 @@
-/* What exp, expm1 and tanh share: e^x = 2^k (1 + head + tail) with head + tail far more exact than one real.
+/* What exp, expm1, pow and tanh share: e^x = 2^k (1 + head + tail) with head + tail far more exact than one real.
  * Reduction by multiples of ln 2 in two parts after Cody and Waite, Software Manual for the Elementary
- * Functions, 1980, ch. 6; exact sums and products after Dekker, Numer. Math. 18, 1971. */
+ * Functions, 1980, ch. 6. */
 #ifndef PCL2_EXP_CORE_H
 #define PCL2_EXP_CORE_H
 
-#include "pcl2_math.h"
+#include "pcl2_pair.h"
 
 struct pcl2_exp_parts {
     int32_t k;       /* power of 2 */
@@ -12,13 +12,11 @@ struct pcl2_exp_parts {
     pcl2_real tail;  /* the rest of it, at most 2 % of the head */
 };
 
-/* ln 2 cut so that k times the high part is exact, the splitting constant 2^half + 1, and the polynomial of
- * (e^r - 1 - r - r^2/2)/r^3 through the Chebyshev points of |r| <= 0.3475; r^3 times its error is below
- * 2^-60 (2^-35). Beyond the largest argument e^x has no finite value, below the smallest it is 0. */
+/* ln 2 cut so that k times the high part is exact, and the polynomial of (e^r - 1 - r - r^2/2)/r^3 through the
+ * Chebyshev points of |r| <= 0.3475; r^3 times its error is below 2^-60 (2^-35). Beyond the largest argument e^x has no finite value, below the smallest it is 0. */
 #if PCL2_REAL_BITS == 64
 #define PCL2_EXP_LN2_HIGH 0.6931471805598903
 #define PCL2_EXP_LN2_LOW 5.497923018708371e-14
-#define PCL2_EXP_SPLIT 134217729.0
 #define PCL2_EXP_LARGEST 710.0
 #define PCL2_EXP_SMALLEST (-746.0)
 #define PCL2_EXP_TERMS 10
@@ -28,20 +26,12 @@ static const pcl2_real pcl2_exp_term[PCL2_EXP_TERMS] = {
 #else
 #define PCL2_EXP_LN2_HIGH 0.693145751953125f
 #define PCL2_EXP_LN2_LOW 1.4286068e-06f
-#define PCL2_EXP_SPLIT 4097.0f
 #define PCL2_EXP_LARGEST 89.0f
 #define PCL2_EXP_SMALLEST (-105.0f)
 #define PCL2_EXP_TERMS 6
 static const pcl2_real pcl2_exp_term[PCL2_EXP_TERMS] = {
     0.16666667f, 0.041666668f, 0.0083333105f, 0.0013888866f, 0.00019891247f, 2.4851555e-05f};
 #endif
-
-/* High half of the digits of x: products of two halves are exact. */
-static inline pcl2_real pcl2_exp_half(pcl2_real x)
-{
-    const pcl2_real scaled = PCL2_EXP_SPLIT * x;
-    return scaled - (scaled - x);
-}
 
 /* x finite, from PCL2_EXP_SMALLEST to PCL2_EXP_LARGEST. */
 static inline struct pcl2_exp_parts pcl2_exp_reduce(pcl2_real x)
@@ -63,7 +53,7 @@ static inline struct pcl2_exp_parts pcl2_exp_reduce(pcl2_real x)
         odd = odd * r2 + pcl2_exp_term[i + 1];
     }
     /* r^2/2 in two parts, the first of them exact */
-    const pcl2_real half = pcl2_exp_half(r);
+    const pcl2_real half = pcl2_pair_half(r);
     const pcl2_real square = PCL2_R(0.5) * half * half;
     const pcl2_real square_rest = PCL2_R(0.5) * (r - half) * (r + half);
     e.head = r + square;
