@@ -341,12 +341,17 @@ fn declare_name(context: &mut Context<'_>, decl: &Decl, name: Name) -> Expr {
 /// The default of a real port may be the bad signal: nothing is wired, or no operator wrote yet.
 fn port_default(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, tail: &Tail) -> Option<Value> {
     match value {
-        raw::Value::Name(name)
-            if *ty == TypeExpr::Scalar(Scalar::Real) && context.symbol_text(name.symbol) == "bad" =>
-        {
+        raw::Value::Name(name) if is_real(ty) && context.symbol_text(name.symbol) == "bad" => {
             Some(Value::Real(Real::BAD))
         }
         _ => default_value(context, value, ty, tail),
+    }
+}
+
+fn is_real(ty: &TypeExpr) -> bool {
+    match ty {
+        TypeExpr::Scalar(scalar) | TypeExpr::Vector(scalar, _) | TypeExpr::Matrix(scalar, ..) => *scalar == Scalar::Real,
+        TypeExpr::Text | TypeExpr::Time => false,
     }
 }
 
