@@ -8,6 +8,7 @@
 //! 5. `sizes`: every size and type is known, and wires fit their ports.
 //! 6. `params`: every parameter has its value, in its range.
 //! 7. `order`: delays are known.
+//! 8. `returns`: return wires that are missing have been named.
 //!
 //! What is wrong is reported once and marked as spoiled; nothing that depends on it is checked.
 
@@ -21,6 +22,7 @@ mod order;
 mod params;
 mod period;
 mod renumber;
+mod returns;
 mod seal;
 mod sections;
 mod signals;
@@ -115,6 +117,7 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
         return None;
     }
     let delays = order::delays(&sectioned, &scope, diagnostics);
+    returns::missing(&scope, diagnostics);
     let program = seal::seal(input, &sectioned, scope, composites, delays);
     // Pass 5 has judged the program's own blocks; composites add theirs.
     if program.units.len() > 1 && verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {

@@ -320,6 +320,10 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn member(&mut self, tag: Name, member: Name) -> Option<Source> {
+        let key = (tag.symbol, self.input.symbols.text(member.symbol).to_owned());
+        if let Some(id) = self.scope.members.get(&key) {
+            return Some(Source::Signal(*id));
+        }
         let Some(block) = self.tag(tag) else {
             if self.scope.by_name.get(tag.symbol).is_some() {
                 let text = self.input.symbols.text(tag.symbol);

@@ -112,6 +112,8 @@ pub const SECOND_WRITER: Code = warning("P0302");
 pub const PLANT_LIST: Code = error("P0303");
 /// A variable that PLANT and CONTROL both write.
 pub const BOTH_SIDES: Code = error("P0304");
+/// A block drives another that hands back what it follows, and does not listen.
+pub const MISSING_RETURN: Code = warning("P0305");
 
 // P05xx: declarations, configuration and target.
 

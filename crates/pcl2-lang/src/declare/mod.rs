@@ -350,7 +350,9 @@ fn port_default(context: &mut Context<'_>, value: &raw::Value, ty: &TypeExpr, ta
 
 fn is_real(ty: &TypeExpr) -> bool {
     match ty {
-        TypeExpr::Scalar(scalar) | TypeExpr::Vector(scalar, _) | TypeExpr::Matrix(scalar, ..) => *scalar == Scalar::Real,
+        TypeExpr::Scalar(scalar) | TypeExpr::Vector(scalar, _) | TypeExpr::Matrix(scalar, ..) => {
+            *scalar == Scalar::Real
+        }
         TypeExpr::Text | TypeExpr::Time => false,
     }
 }
