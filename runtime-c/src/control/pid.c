@@ -2,29 +2,8 @@
  * output, so that a change of Ti or Td needs nothing and every transfer only sets I. */
 #include "pcl2_pid.h"
 
+#include "pcl2_control.h"
 #include "pcl2_math.h"
-#include "pcl2_return.h"
-
-/* mode and actual. */
-#define PID_MAN 0
-#define PID_AUTO 1
-#define PID_CAS 2
-#define PID_INIT 4
-#define PID_FAILED 5
-
-/* phase: nothing known yet, in control, to take up control from where u is. */
-#define PID_FRESH 0
-#define PID_RUNNING 1
-#define PID_RETURNING 2
-
-/* wait: scans that cas was waited for; this when it is followed. */
-#define PID_LINKED (-1)
-#define PID_PATIENCE 16
-
-static pcl2_real pcl2_pid_limited(const struct pcl2_pid *self, pcl2_real u)
-{
-    return u > self->hi ? self->hi : u >= self->lo ? u : self->lo;
-}
 
 PCL2_KERNEL void pcl2_pid_tune(struct pcl2_pid *self, pcl2_real K, pcl2_real Ti, pcl2_real Td, pcl2_real N, pcl2_real b,
                                pcl2_real c, pcl2_real umin, pcl2_real umax, int32_t act, pcl2_real tbad, int32_t onfail,
@@ -34,8 +13,7 @@ PCL2_KERNEL void pcl2_pid_tune(struct pcl2_pid *self, pcl2_real K, pcl2_real Ti,
     const pcl2_real kp = act == 0 ? K : -K;
     const pcl2_real reset = Td > PCL2_R(0.0) ? pcl2_math_sqrt(Ti) * pcl2_math_sqrt(Td) : Ti;
     const pcl2_real shift = self->kp * (self->bw * self->ws - self->y1) - kp * (b * self->ws - self->y1);
-    const int64_t patience = (pcl2_nanoseconds(tbad) + T - 1) / T;
-    if (self->phase == PID_RUNNING && !pcl2_is_bad(self->i + shift)) {
+    if (self->phase == PCL2_RUNNING && self->ki != PCL2_R(0.0) && !pcl2_is_bad(self->i + shift)) {
         self->i += shift;
     }
     self->kp = kp;
@@ -49,7 +27,7 @@ PCL2_KERNEL void pcl2_pid_tune(struct pcl2_pid *self, pcl2_real K, pcl2_real Ti,
     self->hi = umax;
     self->safe = ufail;
     self->direct = act;
-    self->nbad = pcl2_saturate_i(patience);
+    self->nbad = pcl2_scans(tbad, T);
     self->fail = onfail;
 }
 
@@ -70,37 +48,28 @@ PCL2_KERNEL void pcl2_pid_init(struct pcl2_pid *self, pcl2_real K, pcl2_real Ti,
     (void)onfail;
     (void)ufail;
     self->ws = pcl2_bad();
-    self->u = pcl2_pid_limited(self, PCL2_R(0.0));
-    self->actual = PID_AUTO;
+    self->u = pcl2_limited(PCL2_R(0.0), self->lo, self->hi);
+    self->actual = PCL2_AUTO;
     pcl2_hand_back(bk, PCL2_R(0.0), PCL2_FOLLOWING);
 }
 
-/* The cascade's set-point: followed once it has come to the one in force. */
+/* The cascade's set-point, once it is followed. */
 static pcl2_real pcl2_pid_cascade(struct pcl2_pid *self, pcl2_real y, pcl2_real cas, int32_t state)
 {
-    const int32_t apart = state == PCL2_WAITING || self->phase == PID_FRESH;
-    if (self->wait == PID_LINKED && !apart) {
-        return cas;
-    }
-    if (apart) {
+    if (state == PCL2_WAITING || self->phase == PCL2_FRESH) {
         self->wait = 0;
         return y;
     }
-    if (pcl2_has_come(cas, self->ws) || self->wait >= PID_PATIENCE) {
-        self->wait = PID_LINKED;
-        return cas;
-    }
-    self->wait++;
-    return self->ws;
+    return pcl2_follows(&self->wait, cas, self->ws) ? cas : self->ws;
 }
 
 /* The set-point in force. */
 static pcl2_real pcl2_pid_setpoint(struct pcl2_pid *self, pcl2_real y, pcl2_real w, int32_t mode, pcl2_real cas,
                                    int32_t state)
 {
-    const pcl2_real wanted = mode == PID_CAS ? cas : w;
+    const pcl2_real wanted = mode == PCL2_CAS ? cas : w;
     if (!pcl2_is_bad(wanted)) {
-        if (mode == PID_CAS) {
+        if (mode == PCL2_CAS) {
             return pcl2_pid_cascade(self, y, cas, state);
         }
         self->wait = 0;
@@ -121,16 +90,16 @@ static void pcl2_pid_blind(struct pcl2_pid *self, int32_t mode, pcl2_real um)
     self->blind += !shed;
     self->status = shed ? 2 : 1;
     if (shed) {
-        self->phase = self->phase == PID_FRESH ? PID_FRESH : PID_RETURNING;
-        self->actual = self->fail ? PID_FAILED : PID_MAN;
+        self->phase = self->phase == PCL2_FRESH ? PCL2_FRESH : PCL2_RETURNING;
+        self->actual = self->fail ? PCL2_FAILED : PCL2_MAN;
     }
-    if (mode == PID_MAN) {
-        self->actual = PID_MAN;
+    if (mode == PCL2_MAN) {
+        self->actual = PCL2_MAN;
     }
-    if (self->actual == PID_FAILED) {
-        self->u = pcl2_pid_limited(self, self->safe);
-    } else if (self->actual == PID_MAN && !pcl2_is_bad(um)) {
-        self->u = pcl2_pid_limited(self, um);
+    if (self->actual == PCL2_FAILED) {
+        self->u = pcl2_limited(self->safe, self->lo, self->hi);
+    } else if (self->actual == PCL2_MAN && !pcl2_is_bad(um)) {
+        self->u = pcl2_limited(um, self->lo, self->hi);
     }
 }
 
@@ -141,62 +110,26 @@ static void pcl2_pid_apart(struct pcl2_pid *self, pcl2_real y, pcl2_real sp, pcl
     pcl2_real u = self->u;
     if (state == PCL2_WAITING) {
         u = value;
-        self->actual = PID_INIT;
-    } else if (mode == PID_MAN) {
+        self->actual = PCL2_INIT;
+    } else if (mode == PCL2_MAN) {
         u = pcl2_is_bad(um) ? u : um;
-        self->actual = PID_MAN;
-    } else if (self->phase == PID_FRESH) {
+        self->actual = PCL2_MAN;
+    } else if (self->phase == PCL2_FRESH) {
         u = self->ki == PCL2_R(0.0) ? p : pcl2_is_bad(um) ? u : um;
-        self->actual = PID_AUTO;
+        self->actual = PCL2_AUTO;
     } else {
-        self->actual = PID_AUTO;
+        self->actual = PCL2_AUTO;
     }
-    self->u = pcl2_pid_limited(self, u);
+    self->u = pcl2_limited(u, self->lo, self->hi);
     self->i = self->u - p;
-    if (self->phase == PID_FRESH && self->actual == PID_AUTO && self->ki == PCL2_R(0.0)) {
+    if (self->phase == PCL2_FRESH && self->actual == PCL2_AUTO && self->ki == PCL2_R(0.0)) {
         self->i = PCL2_R(0.0);
     }
     self->carry = PCL2_R(0.0);
     self->d = PCL2_R(0.0);
     self->y1 = y;
     self->ws = sp;
-    self->phase = PID_RUNNING;
-}
-
-/* I, compensated: a float integral moves by steps far below its last digit (Neumaier). */
-static void pcl2_pid_integrate(struct pcl2_pid *self, pcl2_real step)
-{
-    const pcl2_real with_carry = step + self->carry;
-    const pcl2_real sum = self->i + with_carry;
-    if (!pcl2_is_bad(sum)) {
-        self->carry = with_carry - (sum - self->i);
-        self->i = sum;
-    }
-}
-
-/* What of the step is left, and what is followed, where the block downstream is limited. */
-static pcl2_real pcl2_pid_held_back(int32_t state, pcl2_real value, pcl2_real *step, pcl2_real u)
-{
-    if (state == PCL2_LIMITED_HIGH) {
-        *step = *step > PCL2_R(0.0) ? PCL2_R(0.0) : *step;
-        return value < u ? value : u;
-    }
-    *step = *step < PCL2_R(0.0) ? PCL2_R(0.0) : *step;
-    return value > u ? value : u;
-}
-
-/* What the master of the cascade hears. */
-static void pcl2_pid_answer(const struct pcl2_pid *self, int32_t state, pcl2_real *bk)
-{
-    int32_t limit = state;
-    if (self->actual != PID_CAS) {
-        pcl2_hand_back(bk, pcl2_is_bad(self->ws) ? PCL2_R(0.0) : self->ws, PCL2_WAITING);
-        return;
-    }
-    if (limit == PCL2_FOLLOWING) {
-        limit = self->u >= self->hi ? PCL2_LIMITED_HIGH : self->u <= self->lo ? PCL2_LIMITED_LOW : PCL2_FOLLOWING;
-    }
-    pcl2_hand_back(bk, self->ws, self->direct ? pcl2_return_reversed(limit) : limit);
+    self->phase = PCL2_RUNNING;
 }
 
 PCL2_KERNEL void pcl2_pid(struct pcl2_pid *self, pcl2_real y, pcl2_real w, int32_t mode, pcl2_real cas, pcl2_real um,
@@ -216,29 +149,18 @@ PCL2_KERNEL void pcl2_pid(struct pcl2_pid *self, pcl2_real y, pcl2_real w, int32
     if (pcl2_is_bad(p)) {
         self->ws = pcl2_is_bad(sp) ? self->ws : sp;
         pcl2_pid_blind(self, mode, um);
-    } else if (pcl2_is_bad(v) || self->phase != PID_RUNNING || mode == PID_MAN || state == PCL2_WAITING) {
+    } else if (pcl2_is_bad(v) || self->phase != PCL2_RUNNING || mode == PCL2_MAN || state == PCL2_WAITING) {
         pcl2_pid_apart(self, y, sp, p, mode, um, state, back[0]);
     } else {
         pcl2_real step = self->ki * (sp - y);
-        const pcl2_real u = pcl2_pid_limited(self, v);
-        const pcl2_real followed = state == PCL2_FOLLOWING ? u : pcl2_pid_held_back(state, back[0], &step, u);
-        pcl2_pid_integrate(self, step + self->kt * (followed - v));
+        const pcl2_real u = pcl2_limited(v, self->lo, self->hi);
+        const pcl2_real followed = state == PCL2_FOLLOWING ? u : pcl2_held_back(state, back[0], &step, u);
+        pcl2_accumulate(&self->i, &self->carry, step + self->kt * (followed - v));
         self->d = d;
         self->y1 = y;
         self->ws = sp;
         self->u = u;
-        self->actual = mode == PID_CAS && self->wait == PID_LINKED ? PID_CAS : PID_AUTO;
+        self->actual = mode == PCL2_CAS && self->wait == PCL2_LINKED ? PCL2_CAS : PCL2_AUTO;
     }
-    pcl2_pid_answer(self, state, bk);
+    pcl2_answer_master(bk, self->actual, self->ws, state, self->direct, pcl2_limit_state(self->u, self->lo, self->hi));
 }
-
-#undef PID_MAN
-#undef PID_AUTO
-#undef PID_CAS
-#undef PID_INIT
-#undef PID_FAILED
-#undef PID_FRESH
-#undef PID_RUNNING
-#undef PID_RETURNING
-#undef PID_LINKED
-#undef PID_PATIENCE
