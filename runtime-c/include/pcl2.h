@@ -143,7 +143,8 @@ static inline int64_t pcl2_nanoseconds(pcl2_real seconds)
     return seconds < limit ? (int64_t)(seconds * PCL2_R(1e9) + PCL2_R(0.5)) : INT64_C(4611686018427387904);
 }
 
-/* What went wrong since init. All zero: nothing did. */
+/* What went wrong since init. All zero: nothing did. Faults of one scan count in block order, whatever the order in
+ * which they are told: the first is that of the lowest block, the latest that of the highest. */
 struct pcl2_health {
     uint32_t faults;       /* block scans that ended with a status other than 0; stops at 2^32 - 1 */
     uint32_t refused;      /* sets of parameters that were refused as a whole; stops at 2^32 - 1 */
@@ -158,17 +159,19 @@ struct pcl2_health {
 /* Counts a fault: block ended scan with status (not 0). */
 static inline void pcl2_fault(struct pcl2_health *health, uint32_t scan, int32_t block, int32_t status)
 {
-    if (health->faults == 0) {
+    if (health->faults == 0 || (scan == health->first_scan && block < health->first_block)) {
         health->first_block = block;
         health->first_status = status;
         health->first_scan = scan;
     }
+    if (health->faults == 0 || scan != health->last_scan || block >= health->last_block) {
+        health->last_block = block;
+        health->last_status = status;
+        health->last_scan = scan;
+    }
     if (health->faults != UINT32_MAX) {
         health->faults++;
     }
-    health->last_block = block;
-    health->last_status = status;
-    health->last_scan = scan;
 }
 
 /* Counts a refused set of parameters. */

@@ -1,7 +1,7 @@
 //! The functions of a composite: step, tune, init and check over its struct.
 
 use crate::args::{Call, Caller};
-use crate::calls;
+use crate::calls::{self, Telling};
 use crate::check;
 use crate::code::place_elements;
 use crate::context::Context;
@@ -110,7 +110,8 @@ fn step_blocks(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>, sco
         out.push_str("    int32_t status = 0;\n");
     }
     for (id, _) in body.blocks() {
-        if calls::step(out, body.cx, statics, scope, id, INDENT) {
+        calls::step(out, body.cx, statics, scope, id, "status = status != 0 ? status : 1;");
+        if calls::telling(body.cx, body.id, id) == Telling::Status {
             out.push_str("    status = status != 0 ? status : ");
             calls::status(out, body.cx, scope, id);
             out.push_str(";\n");

@@ -9,42 +9,62 @@ use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::kernel::{self, Entry};
 use pcl2_lang::program::{BlockId, CellId, Source, Tracked, UnitId};
-use pcl2_lang::types::{Scalar, Type};
+use pcl2_lang::types::{Scalar, Type, Value};
 use std::fmt::Write;
 
-/// Writes the step of one block. Returns whether it can leave a status.
+const INDENT: &str = "    ";
+
+/// How a block tells of a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Telling {
+    /// It has none.
+    Never,
+    /// By the status in its struct.
+    Status,
+    /// By its result: it is bad although no input is.
+    Result,
+}
+
+/// Writes the step of one block. `raise` stands behind it where the block's result tells of a fault.
 pub(crate) fn step(
     out: &mut String,
     cx: &Context<'_>,
     statics: &mut Statics,
     scope: Scope<'_>,
     id: BlockId,
-    indent: &str,
-) -> bool {
+    raise: &str,
+) {
     let mut call = Call::new(cx, scope.unit, id, Caller::Step(scope), None);
     let statement = cx.sources.text(call.block().span);
     let fallback = &call.block().name;
-    text::comment(out, indent, if statement.is_empty() { fallback } else { statement });
-    prepare(out, &mut call, indent);
-    out.push_str(indent);
-    match call.block().unit {
-        Some(inner) => body_call(out, statics, &call, inner),
-        None => kernel_call(out, statics, &call),
+    text::comment(out, INDENT, if statement.is_empty() { fallback } else { statement });
+    prepare(out, &mut call, INDENT);
+    match (telling(cx, scope.unit, id), call.block().unit) {
+        (Telling::Result, _) => doubtful_call(out, statics, &call, raise),
+        (Telling::Never | Telling::Status, inner) => {
+            out.push_str(INDENT);
+            match inner {
+                Some(inner) => body_call(out, statics, &call, inner),
+                None => kernel_call(out, statics, &call),
+            }
+            out.push_str(";\n");
+        }
     }
-    out.push_str(";\n");
-    publish(out, &call, indent, |_| true);
+    publish(out, &call, INDENT, |_| true);
     if scope.unit.0 == 0 {
-        track(out, &call, indent);
+        track(out, &call, INDENT);
     }
-    has_status(cx, scope.unit, id)
 }
 
-/// Whether a block can leave a status.
-pub(crate) fn has_status(cx: &Context<'_>, unit: UnitId, id: BlockId) -> bool {
+/// How a block tells of a fault.
+pub(crate) fn telling(cx: &Context<'_>, unit: UnitId, id: BlockId) -> Telling {
     let block = cx.program.unit(unit).block(id);
+    let decl = cx.code(block.decl).decl;
     match block.unit {
-        Some(inner) => cx.unit_layout(inner).facts.status,
-        None => !cx.code(block.decl).decl.faults.is_empty(),
+        Some(inner) if cx.unit_layout(inner).facts.status => Telling::Status,
+        None if kernel::faults_by_result(decl) => Telling::Result,
+        None if !decl.faults.is_empty() => Telling::Status,
+        Some(_) | None => Telling::Never,
     }
 }
 
@@ -163,6 +183,65 @@ fn kernel_call(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>) {
         out.push_str(" = ");
     }
     call.kernel(out, statics, Entry::Step);
+}
+
+/// The call of a code whose result tells of a fault, and the test of the result.
+fn doubtful_call(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, raise: &str) {
+    let leaves = doubtful(call);
+    let signal = call.block().outputs[0];
+    let overwritten = leaves.iter().any(|leaf| matches!(leaf, Source::Signal(id) if *id == signal));
+    let indent = if overwritten { "        " } else { INDENT };
+    if overwritten {
+        out.push_str("    {\n        const int32_t bad = ");
+        bad_leaf(out, call, &leaves);
+        out.push_str(";\n");
+    }
+    out.push_str(indent);
+    kernel_call(out, statics, call);
+    let _ = write!(out, ";\n{indent}if (PCL2_RARELY(pcl2_is_bad(");
+    expr::signal_value(out, call.cx, call.scope(), signal, 0);
+    out.push(')');
+    if overwritten {
+        out.push_str(" && !bad");
+    } else if let [leaf] = leaves.as_slice() {
+        out.push_str(" && !");
+        bad_leaf(out, call, std::slice::from_ref(leaf));
+    } else if !leaves.is_empty() {
+        out.push_str(" && !(");
+        bad_leaf(out, call, &leaves);
+        out.push(')');
+    }
+    let _ = writeln!(out, ")) {{\n{indent}    {raise}\n{indent}}}");
+    if overwritten {
+        out.push_str("    }\n");
+    }
+}
+
+/// What a block reads that can be bad, each once.
+fn doubtful<'a>(call: &Call<'_, 'a>) -> Vec<&'a Source> {
+    let mut leaves: Vec<&Source> = Vec::new();
+    for source in &call.block().ports {
+        let real = match source {
+            Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => {
+                call.body().signal(*id).ty.scalar == Scalar::Real
+            }
+            Source::Cell(id) => call.body().cells[id.0 as usize].ty.scalar == Scalar::Real,
+            Source::Constant(value) => matches!(value, Value::Real(real) if !real.wide.is_finite()),
+        };
+        if real && !leaves.contains(&source) {
+            leaves.push(source);
+        }
+    }
+    leaves
+}
+
+/// `pcl2_is_bad(a) || pcl2_is_bad(b)`
+fn bad_leaf(out: &mut String, call: &Call<'_, '_>, leaves: &[&Source]) {
+    for (i, leaf) in leaves.iter().enumerate() {
+        out.push_str(if i == 0 { "pcl2_is_bad(" } else { " || pcl2_is_bad(" });
+        expr::source_value(out, call.cx, call.scope(), leaf, Scalar::Real);
+        out.push(')');
+    }
 }
 
 /// What takes the value that an inline code returns.

@@ -1,5 +1,6 @@
 //! What every phase reads: the program, its codes and its layout.
 
+use crate::calls::{self, Telling};
 use crate::code::Code;
 use crate::layout::{Layout, UnitLayout};
 use crate::shape::Shape;
@@ -19,7 +20,7 @@ pub(crate) struct Context<'a> {
     pub(crate) codes: Vec<Code<'a>>,
     /// Where everything lives.
     pub(crate) layout: Layout<'a>,
-    /// The program's blocks that can leave a status.
+    /// The program's blocks whose struct has a status.
     pub(crate) statuses: Vec<u32>,
 }
 
@@ -31,8 +32,8 @@ impl<'a> Context<'a> {
         let layout = crate::layout::layout(program, &name, &codes);
         let mut context = Context { program, sources, name, codes, layout, statuses: Vec::new() };
         let blocks = (0..program.main().blocks.len() as u32).map(BlockId);
-        context.statuses =
-            blocks.filter(|block| crate::calls::has_status(&context, UnitId(0), *block)).map(|block| block.0).collect();
+        let status = |block: &BlockId| calls::telling(&context, UnitId(0), *block) == Telling::Status;
+        context.statuses = blocks.filter(status).map(|block| block.0).collect();
         context
     }
 

@@ -144,12 +144,12 @@ pub(crate) struct Layout<'a> {
 /// Members of the program's struct that no block can have.
 const RESERVED: &[&str] = &["in", "out", "cold", "health", "scan", "work", "iwork", "twork"];
 /// Names inside a composite's functions that no block, port or parameter can have.
-const RESERVED_INSIDE: &[&str] = &["T", "cold", "hot", "left", "self", "status", "iwork", "twork", "work"];
+const RESERVED_INSIDE: &[&str] = &["T", "bad", "cold", "hot", "left", "self", "status", "iwork", "twork", "work"];
 
 /// What stands behind the program's name in names that are always there.
 const RESERVED_TAGS: &[&str] = &[
     "init", "step", "tune", "in", "out", "cold", "map", "points", "rows", "marks", "codes", "table", "initial",
-    "status", "statuses",
+    "status", "statuses", "fault",
 ];
 
 /// Lays a program out.

@@ -28,6 +28,7 @@ pub(crate) fn source(cx: &Context<'_>, points: &Points, has_file: &dyn Fn(&str) 
     body.push_str(&table.text);
     let offset = offset_type(cx, points);
     step::status_table(&mut body, cx, offset);
+    step::fault_function(&mut body, cx);
     let image = image::image(&mut body, cx);
     init::function(&mut body, cx, &mut statics, &table, image);
     step::function(&mut body, cx, &mut statics);

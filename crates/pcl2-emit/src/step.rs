@@ -1,6 +1,6 @@
 //! `NAME_step`: the sections that are due, one call a block.
 
-use crate::calls;
+use crate::calls::{self, Telling};
 use crate::context::Context;
 use crate::expr::{self, Scope};
 use crate::layout::{Crossing, PART, WHOLE};
@@ -100,7 +100,8 @@ fn blocks(out: &mut String, cx: &Context<'_>, statics: &mut Statics, first: u32,
         out.push_str("    int32_t faults = 0;\n");
     }
     for id in (first..end).map(BlockId) {
-        if calls::step(out, cx, statics, scope, id, INDENT) && gathered {
+        calls::step(out, cx, statics, scope, id, &format!("{}_fault(self, {});", cx.name, id.0));
+        if gathered && calls::telling(cx, UnitId(0), id) == Telling::Status {
             out.push_str("    faults |= ");
             calls::status(out, cx, scope, id);
             out.push_str(";\n");
@@ -118,6 +119,23 @@ fn blocks(out: &mut String, cx: &Context<'_>, statics: &mut Statics, first: u32,
 fn status_range(cx: &Context<'_>, first: u32, end: u32) -> (usize, usize) {
     let statuses = &cx.statuses;
     (statuses.partition_point(|block| *block < first), statuses.partition_point(|block| *block < end))
+}
+
+/// Writes the function that counts faults which results tell of.
+pub(crate) fn fault_function(out: &mut String, cx: &Context<'_>) {
+    let mut blocks = (0..cx.program.main().blocks.len() as u32).map(BlockId);
+    if blocks.any(|block| calls::telling(cx, UnitId(0), block) == Telling::Result) {
+        let _ = writeln!(
+            out,
+            "/* Counts the fault of a block whose result is bad although no input is. */
+static void {name}_fault({name} *self, int32_t block)
+{{
+    pcl2_fault(&self->health, self->scan, block, 1);
+}}
+",
+            name = cx.name
+        );
+    }
 }
 
 /// Writes the table of statuses and the function that takes them into the health record.

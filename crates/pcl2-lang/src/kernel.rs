@@ -93,6 +93,11 @@ pub fn returns_value(decl: &Decl) -> bool {
     decl.inline && decl.outputs.len() == 1 && in_instance(&decl.outputs[0])
 }
 
+/// Whether the executive sees the code's one fault: its result is bad although no input is. The kernel keeps no status.
+pub fn faults_by_result(decl: &Decl) -> bool {
+    decl.inline && !decl.faults.is_empty()
+}
+
 /// Whether the kernel has this function.
 pub fn has(decl: &Decl, entry: Entry) -> bool {
     match entry {

@@ -119,6 +119,9 @@ pub(crate) enum Op {
     Convert { from: usize, to: usize },
     /// Bytes to another place.
     Copy { from: usize, to: usize, bytes: usize },
+    /// The status of a code that keeps none: 1 if the last of `count` real arguments from `first` is bad although no
+    /// other is.
+    Judge { first: usize, count: usize, at: usize },
     /// Forgets the status of a composite.
     Clear { at: usize },
     /// Hands a status out of a composite; the first stays.
@@ -174,6 +177,8 @@ enum Bare {
     ConvertNarrow(*const i32, *mut f32),
     CopyWide(*const u64, *mut u64),
     Copy(*const u8, *mut u8, usize),
+    JudgeWide(*const *mut c_void, usize, *mut i32),
+    JudgeNarrow(*const *mut c_void, usize, *mut i32),
     Clear(*mut i32),
     Carry(*const i32, *mut i32),
     Fault(*const i32, u32),
@@ -204,7 +209,8 @@ impl Bound {
         let pointers = plan.arguments.iter().map(|slot| storage.argument(*slot)).collect::<Result<Vec<_>, _>>()?;
         let mut tapes: [Vec<Bare>; TAPES] = Default::default();
         for (bare, ops) in tapes.iter_mut().zip(&plan.tapes) {
-            *bare = ops.iter().map(|op| storage.bind(*op, &pointers, width)).collect::<Result<_, _>>()?;
+            *bare =
+                ops.iter().map(|op| storage.bind(*op, &plan.arguments, &pointers, width)).collect::<Result<_, _>>()?;
         }
         Ok(Bound { words, _pointers: pointers, tapes })
     }
@@ -229,6 +235,14 @@ impl Bound {
                     Bare::ConvertNarrow(from, to) => *to = *from as f32,
                     Bare::CopyWide(from, to) => *to = *from,
                     Bare::Copy(from, to, bytes) => std::ptr::copy(from, to, bytes),
+                    Bare::JudgeWide(places, inputs, at) => {
+                        let bad = |i: usize| !(*(*places.add(i)).cast::<f64>()).is_finite();
+                        *at = i32::from(bad(inputs) && !(0..inputs).any(bad));
+                    }
+                    Bare::JudgeNarrow(places, inputs, at) => {
+                        let bad = |i: usize| !(*(*places.add(i)).cast::<f32>()).is_finite();
+                        *at = i32::from(bad(inputs) && !(0..inputs).any(bad));
+                    }
                     Bare::Clear(at) => *at = 0,
                     Bare::Carry(from, to) => {
                         if *to == 0 {
@@ -296,11 +310,35 @@ impl Storage {
         }
     }
 
-    fn bind(self, op: Op, pointers: &[*mut c_void], width: Width) -> Result<Bare, NoRoom> {
+    /// The reals that a judgement reads: aligned, and at least the result.
+    fn judged(
+        self,
+        first: usize,
+        count: usize,
+        slots: &[Slot],
+        pointers: &[*mut c_void],
+        width: Width,
+    ) -> Result<(*const *mut c_void, usize), NoRoom> {
+        let end = first.checked_add(count).ok_or(NoRoom::Outside)?;
+        let (slots, places) = slots.get(first..end).zip(pointers.get(first..end)).ok_or(NoRoom::Outside)?;
+        let inputs = count.checked_sub(1).ok_or(NoRoom::Outside)?;
+        let one_real = |slot: &Slot| slot.bytes >= width.bytes() && slot.at % width.bytes() == 0;
+        if slots.iter().all(one_real) { Ok((places.as_ptr(), inputs)) } else { Err(NoRoom::Outside) }
+    }
+
+    fn bind(self, op: Op, slots: &[Slot], pointers: &[*mut c_void], width: Width) -> Result<Bare, NoRoom> {
         Ok(match op {
             Op::Call { function: Function(thunk), first, count } => {
                 let end = first.checked_add(count).ok_or(NoRoom::Outside)?;
                 Bare::Call(thunk, pointers.get(first..end).ok_or(NoRoom::Outside)?.as_ptr())
+            }
+            Op::Judge { first, count, at } => {
+                let at = self.place(at, 4)?;
+                let (places, inputs) = self.judged(first, count, slots, pointers, width)?;
+                match width {
+                    Width::F64 => Bare::JudgeWide(places, inputs, at),
+                    Width::F32 => Bare::JudgeNarrow(places, inputs, at),
+                }
             }
             Op::Convert { from, to } => match width {
                 Width::F64 => Bare::ConvertWide(self.place(from, 4)?, self.place(to, 8)?),

@@ -28,10 +28,15 @@ pub struct Health {
 }
 
 impl Health {
-    /// Counts a fault.
+    /// Counts a fault. Those of one scan count in block order: the lowest is the first, the highest the latest.
     pub fn fault(&mut self, fault: FaultAt) {
-        self.first.get_or_insert(fault);
-        self.last = Some(fault);
+        let FaultAt { block, scan, .. } = fault;
+        if self.first.is_none_or(|first| scan == first.scan && block < first.block) {
+            self.first = Some(fault);
+        }
+        if self.last.is_none_or(|last| scan != last.scan || block >= last.block) {
+            self.last = Some(fault);
+        }
         self.faults = self.faults.saturating_add(1);
     }
 

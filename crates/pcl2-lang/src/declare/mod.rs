@@ -9,6 +9,7 @@ use crate::decl::{
     ParamDecl, PortDecl, RETURN_OUTPUT, SizeVar, Tail, TypeExpr,
 };
 use crate::diagnostic::Diagnostic;
+use crate::kernel;
 use crate::lexer::{Key, Token};
 use crate::source::{FileId, Sources, Span};
 use crate::symbol::Symbols;
@@ -593,9 +594,30 @@ fn check(context: &mut Context<'_>, decl: &Decl) {
     if decl.check && decl.faults.is_empty() {
         complain(context, decl.span, "expected FAULTS beside CHECK, to say what is refused, found none");
     }
-    if decl.inline && !(decl.memory.is_empty() && decl.tuned.is_empty() && decl.faults.is_empty()) {
-        complain(context, decl.span, "expected an INLINE code without MEMORY, TUNED or FAULTS");
+    if decl.inline {
+        check_inline(context, decl);
     }
+    check_tracks(context, decl);
+}
+
+/// An INLINE code keeps nothing. Its one fault, if it has any, is that its result is bad although no input is.
+fn check_inline(context: &mut Context<'_>, decl: &Decl) {
+    if !(decl.memory.is_empty() && decl.tuned.is_empty()) {
+        complain(context, decl.span, "expected an INLINE code without MEMORY and TUNED, found one of them");
+    }
+    if decl.faults.is_empty() {
+        return;
+    }
+    let plain = decl.ports().all(|port| port.ty.is_scalar() && port.group.is_none());
+    let real = kernel::returns_value(decl) && decl.outputs[0].ty == TypeExpr::Scalar(Scalar::Real);
+    if decl.faults.len() > 1 || decl.check || !plain || !real {
+        let message =
+            "expected one fault, scalar ports and one real output of an INLINE code with FAULTS, found something else";
+        complain(context, decl.span, message);
+    }
+}
+
+fn check_tracks(context: &mut Context<'_>, decl: &Decl) {
     for port in decl.ports() {
         let tracked = port.tracks.as_ref();
         let known = tracked.is_none_or(|name| {

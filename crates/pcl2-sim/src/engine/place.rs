@@ -337,7 +337,10 @@ impl<'a> Store<'a> {
             };
             outputs.extend((0..count).map(|j| if bytes == 0 { NOWHERE } else { base + j * bytes }));
         }
-        let status = member(Member::Status);
+        let status = match member(Member::Status) {
+            None if kernel::faults_by_result(decl) => Some(self.take(4)?),
+            status => status,
+        };
         Ok(Node { decl: block.decl, kernel, instance, status, outputs, params, memory, tuned, inner: None })
     }
 

@@ -3,7 +3,7 @@
 use super::Unsupported;
 use super::place::{Body, Fill, NOWHERE, Node, Store, has_slot, width_of};
 use crate::ffi::{Op, Plan, Slot, Tape};
-use pcl2_lang::decl::{Decl, PortDecl};
+use pcl2_lang::decl::{Decl, PortDecl, TypeExpr};
 use pcl2_lang::kernel::{self, Arg, Entry};
 use pcl2_lang::program::{Block, BlockId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer};
 use pcl2_lang::types::{Real, Scalar, Shape, Type};
@@ -280,12 +280,22 @@ impl<'a, 'b> Wiring<'a, 'b> {
                 Entry::Step if kernel::returns_value(decl) => slots.push(self.output(block, decl, node, 0)),
                 Entry::Step | Entry::Tune | Entry::Init => {}
             }
-            let first = self.plan.arguments.len();
-            let count = slots.len();
-            self.plan.arguments.extend(slots);
+            let judged = if entry == Entry::Step { judged(decl, &slots) } else { Vec::new() };
+            let (first, count) = self.table(slots);
             self.plan.tape(tape).push(Op::Call { function, first, count });
+            if let (Some(at), false) = (node.status, judged.is_empty()) {
+                let (first, count) = self.table(judged);
+                self.plan.tape(tape).push(Op::Judge { first, count, at });
+            }
         }
         Ok(())
+    }
+
+    /// Adds slots to the table of arguments.
+    fn table(&mut self, slots: Vec<Slot>) -> (usize, usize) {
+        let (first, count) = (self.plan.arguments.len(), slots.len());
+        self.plan.arguments.extend(slots);
+        (first, count)
     }
 
     fn arguments(
@@ -409,7 +419,10 @@ impl<'a, 'b> Wiring<'a, 'b> {
             let Some(source) = sources.first() else {
                 return Ok(Slot { at: 0, bytes: 0 });
             };
-            let at = self.source(unit, source, ty, matches!(source, Source::Copied(_)), context)?;
+            let overwritten =
+                self.is_judged(block) && matches!(source, Source::Signal(id) if block.outputs.contains(id));
+            let copy = overwritten || matches!(source, Source::Copied(_));
+            let at = self.source(unit, source, ty, copy, context)?;
             return Ok(self.slot(at, bytes));
         }
         let total = bytes.checked_mul(count).ok_or(Unsupported::TooLarge)?;
@@ -418,6 +431,11 @@ impl<'a, 'b> Wiring<'a, 'b> {
             self.into(unit, source, ty, at + i * bytes, context);
         }
         Ok(self.slot(at, total))
+    }
+
+    /// Whether the block's inputs are looked at once more when its result is there.
+    fn is_judged(&self, block: &Block) -> bool {
+        kernel::faults_by_result(self.program.decl(block.decl))
     }
 
     /// Where a kernel finds what is wired to a port.
@@ -498,6 +516,20 @@ impl<'a, 'b> Wiring<'a, 'b> {
             self.plan.tape(Tape::Publish).push(Op::Copy { from, to, bytes });
         }
     }
+}
+
+/// The real inputs and the result of a code whose result tells of its fault.
+fn judged(decl: &Decl, slots: &[Slot]) -> Vec<Slot> {
+    if !kernel::faults_by_result(decl) {
+        return Vec::new();
+    }
+    let real = |arg: &Arg| match arg {
+        Arg::Port(i) => decl.ports().nth(*i).is_some_and(|port| port.ty == TypeExpr::Scalar(Scalar::Real)),
+        _ => false,
+    };
+    let args = kernel::args(decl, Entry::Step);
+    let inputs = args.iter().zip(slots).filter(|(arg, _)| real(arg)).map(|(_, slot)| *slot);
+    inputs.chain(slots.last().copied()).collect()
 }
 
 fn largest_work(store: &Store) -> usize {
