@@ -25,7 +25,7 @@ def table(path, header, rows):
 def write(name, program, stimulus, trace, reason, relative=1e-9, absolute=1e-12, period=0.25, single=None):
     """stimulus and trace are (header, rows); row k of the trace stands after scan k.
 
-    single is (relative, reason) where floats need more than the harness gives them."""
+    single is (relative, reason) or (relative, reason, absolute) where floats need other than the harness gives them."""
     folder = CASES / name
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "main.cfg").write_text(program.strip("\n") + "\n")
@@ -36,4 +36,5 @@ def write(name, program, stimulus, trace, reason, relative=1e-9, absolute=1e-12,
     (folder / "case.toml").write_text(
         f"steps = {len(trace[1])}\nrelative = {relative}\nabsolute = {absolute}\n"
         f'reason = "{reason}"\n'
-        + (f'\n[f32]\nrelative = {single[0]}\nreason = "{single[1]}"\n' if single else ""))
+        + (f'\n[f32]\nrelative = {single[0]}\nreason = "{single[1]}"\n' if single else "")
+        + (f"absolute = {single[2]}\n" if single and len(single) > 2 else ""))

@@ -79,7 +79,8 @@ fn dependencies_point_down() {
 // 1. No block is known to a crate.
 
 /// Words that the compiler has for itself and that are a function code's name too, each with the reason.
-const OWN_WORDS: [(&str, &str); 1] = [("add", "the suite has rustup add components")];
+const OWN_WORDS: [(&str, &str); 2] =
+    [("add", "the suite has rustup add components"), ("hold", "a value of `bad` in [io]")];
 
 #[test]
 fn no_crate_knows_a_function_code() {
@@ -200,18 +201,18 @@ fn a_kernel_that_drifts_from_its_declaration_does_not_compile() {
     let work = folder();
     let case = cases::find("user_block");
     copy_folder(&case.folder, work.path());
-    let kernel = work.path().join("blocks/ramp.c");
+    let kernel = work.path().join("blocks/glide.c");
     let text = fs::read_to_string(&kernel).unwrap();
     let drifted = text.replace(
-        "pcl2_ramp_tune(struct pcl2_ramp *self, pcl2_real rate,",
-        "pcl2_ramp_tune(struct pcl2_ramp *self, int32_t rate,",
+        "pcl2_glide_tune(struct pcl2_glide *self, pcl2_real rate,",
+        "pcl2_glide_tune(struct pcl2_glide *self, int32_t rate,",
     );
     assert_ne!(text, drifted);
     fs::write(&kernel, drifted).unwrap();
     let output = run(pcl2().arg("run").arg(work.path()).args(["--steps", "1", "--engine", "cc"]));
     assert_eq!(output.status.code(), Some(3));
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("pcl2_ramp_tune"), "{said}");
+    assert!(said.contains("pcl2_glide_tune"), "{said}");
 }
 
 // 3. Only the command touches files, clocks and the terminal.
