@@ -216,3 +216,42 @@ refused sets: 1
     assert_eq!(code, 3);
     assert!(err.contains("mine.c:2"), "{err}");
 }
+
+#[test]
+fn names_of_an_enumeration_stand_for_its_values() {
+    let mode = "! A mode.\nint u {off, on}, real v = station ( real x, cell int mode = auto {man, auto, cas} : int form = isa {isa, parallel} )\n\
+                BODY\n1 u = msi ( : form )\n2 v = sumII ( 1, x, mode, 2 : 1., 1. )\nEND\n";
+    let folder = folder(&[
+        ("blocks/station.fc", mode),
+        ("a.cfg", "CONTROL\n1 x = msc ( : 2. )\n2 T = station ( x : )\n3 B = station ( x : parallel )\nEND\n"),
+        ("s.csv", "t,T.mode,T.form\n0,cas,\n1,man,parallel\n2,1,isa\n"),
+    ]);
+    for engine in ["embedded", "cc"] {
+        let args = ["a.cfg", "--blocks", "blocks", "--period", "1", "--engine", engine];
+        let sets = ["--stimulus", "s.csv", "--set", "B.mode=man@1", "--set", "3.form=isa@2", "--trace", "-"];
+        let (code, out, err) = said(&pcl2_run(folder.path(), &[&args[..], &sets].concat()));
+        let expected = "@k,@t,x,T,T.v,B,B.v\n0,0,2.0,0,4.0,1,3.0\n1,1,2.0,1,2.0,1,2.0\n2,2,2.0,0,3.0,0,2.0\n";
+        assert_eq!((code, out.as_str(), err.as_str()), (0, expected, ""));
+    }
+    let args = ["a.cfg", "--blocks", "blocks", "--steps", "1", "--set", "T.mode=auot"];
+    let (code, _, err) = said(&pcl2_run(folder.path(), &args));
+    assert_eq!(
+        (code, err.as_str()),
+        (2, "error: --set `T.mode=auot`: expected an int or one of man, auto, cas, found `auot`\n")
+    );
+}
+
+#[test]
+fn an_interrupted_run_leaves_nothing() {
+    for signal in ["INT", "KILL"] {
+        let folder = folder(&[("lag.cfg", LAG)]);
+        let args = ["lag.cfg", "--period", "0.5", "--steps", "1000000000000", "--trace", "t.csv", "--params", "p.txt"];
+        let mut child = pcl2().current_dir(folder.path()).arg("run").args(args).spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        assert!(child.try_wait().unwrap().is_none());
+        let killed = std::process::Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+        assert!(killed.success() && !child.wait().unwrap().success());
+        let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left, ["lag.cfg"]);
+    }
+}

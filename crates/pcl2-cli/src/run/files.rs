@@ -1,11 +1,10 @@
 //! Output that appears whole or not at all.
 
 use super::Failure;
-use crate::output;
+use crate::output::Pending;
 use std::fs::{self, File};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use std::path::Path;
 
 /// Whether a path stands for standard output.
 pub(crate) fn is_stdout(path: &Path) -> bool {
@@ -19,8 +18,8 @@ pub(crate) enum Output {
     Stdout(io::Stdout),
     /// A device or a pipe.
     Direct(File),
-    /// A file beside its place, and the place.
-    Pending(NamedTempFile, PathBuf),
+    /// A file on the way to its place.
+    Pending(Pending),
 }
 
 impl Output {
@@ -34,11 +33,11 @@ impl Output {
 
     /// Moves a complete file to its place.
     pub(crate) fn keep(self) -> Result<(), Failure> {
-        let Output::Pending(file, path) = self else {
+        let Output::Pending(file) = self else {
             return Ok(());
         };
-        let kept = output::set_readable(file.as_file()).and_then(|()| file.persist(&path).map_err(|error| error.error));
-        kept.map(|_| ()).map_err(|error| cannot_write(&path, &error))
+        let path = file.path().to_path_buf();
+        file.keep().map_err(|error| cannot_write(&path, &error))
     }
 }
 
@@ -47,7 +46,7 @@ impl Write for Output {
         match self {
             Output::Stdout(stdout) => stdout.write(bytes),
             Output::Direct(file) => file.write(bytes),
-            Output::Pending(file, _) => file.write(bytes),
+            Output::Pending(file) => file.write(bytes),
         }
     }
 
@@ -55,7 +54,7 @@ impl Write for Output {
         match self {
             Output::Stdout(stdout) => stdout.flush(),
             Output::Direct(file) => file.flush(),
-            Output::Pending(file, _) => file.flush(),
+            Output::Pending(file) => file.flush(),
         }
     }
 }
@@ -63,15 +62,9 @@ impl Write for Output {
 fn open(path: &Path) -> io::Result<Output> {
     match fs::metadata(path) {
         Ok(data) if !data.is_file() => Ok(Output::Direct(fs::OpenOptions::new().write(true).open(path)?)),
-        Ok(_) => pending(&path.canonicalize()?),
-        Err(_) => pending(path),
+        Ok(_) => Pending::new(&path.canonicalize()?).map(Output::Pending),
+        Err(_) => Pending::new(path).map(Output::Pending),
     }
-}
-
-fn pending(path: &Path) -> io::Result<Output> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = tempfile::Builder::new().prefix(".pcl2-").tempfile_in(folder)?;
-    Ok(Output::Pending(file, path.to_path_buf()))
 }
 
 /// Writes a whole text.
