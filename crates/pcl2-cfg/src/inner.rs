@@ -8,7 +8,7 @@ use pcl2_lang::program::{Block, Param, Program, UnitId};
 use pcl2_lang::types::Value;
 
 /// Checks the parameters of every composite in use against the ranges of the blocks inside it.
-pub(crate) fn check_ranges(program: &Program, diagnostics: &mut Vec<Diagnostic>) {
+pub fn check_ranges(program: &Program, diagnostics: &mut Vec<Diagnostic>) {
     for block in &program.main().blocks {
         let (Some(unit), true) = (block.unit, !diagnostic::enough(diagnostics)) else {
             continue;

@@ -21,6 +21,7 @@ mod number;
 mod order;
 mod params;
 mod period;
+pub mod places;
 mod renumber;
 mod returns;
 mod seal;
@@ -29,6 +30,7 @@ mod signals;
 mod sizes;
 
 pub use files::{FileText, wanted_files};
+pub use inner::check_ranges as check_inner_ranges;
 pub use period::check_period;
 pub use renumber::{Edit, edited, renumber};
 

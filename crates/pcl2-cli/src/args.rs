@@ -23,6 +23,8 @@ pub(crate) enum Command {
     Run(crate::run::RunArgs),
     /// Give sources their canonical layout
     Fmt(FmtArgs),
+    /// List parameters, compare them with the source, or save them in it
+    Params(crate::params::ParamsArgs),
     /// List the function codes, or describe one
     Blocks(BlocksArgs),
     /// Explain a diagnostic

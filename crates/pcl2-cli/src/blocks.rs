@@ -222,7 +222,7 @@ fn expr_text(decl: &Decl, expr: &Expr) -> String {
     }
 }
 
-fn range(decl: &Decl, bounds: Option<&Bounds>) -> String {
+pub(crate) fn range(decl: &Decl, bounds: Option<&Bounds>) -> String {
     let Some(bounds) = bounds else {
         return String::new();
     };

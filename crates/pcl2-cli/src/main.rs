@@ -11,6 +11,7 @@ mod fmt;
 mod io;
 mod outcome;
 mod output;
+mod params;
 mod project;
 mod run;
 mod toolchain;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         Command::Build(args) => build::build(&args),
         Command::Run(args) => run::run(&args),
         Command::Fmt(args) => fmt::fmt(&args),
+        Command::Params(args) => params::params(&args),
         Command::Blocks(args) => blocks::blocks(&args),
         Command::Explain(args) => explain::explain(&args),
     };

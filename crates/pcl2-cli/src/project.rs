@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 /// The largest source file in bytes.
 const MAX_SOURCE: u64 = 256 << 20;
 /// The largest parameter file in bytes.
-const MAX_PARAMETERS: u64 = 64 << 20;
+pub(crate) const MAX_PARAMETERS: u64 = 64 << 20;
 
 /// A program with everything that was read for it.
 pub(crate) struct Project {
@@ -42,6 +42,8 @@ pub(crate) struct Project {
     pub(crate) kernels: Vec<(String, String)>,
     /// The content of pcl2.toml.
     pub(crate) config: Config,
+    /// The source, if it could be read: its place and its text.
+    pub(crate) source: Option<(PathBuf, FileId)>,
     /// How long each phase took.
     pub(crate) timings: Vec<(&'static str, Duration)>,
     /// Bytes of source, lines and blocks.
@@ -50,7 +52,12 @@ pub(crate) struct Project {
 
 /// Reads and checks the program at a path.
 pub(crate) fn load(path: &Path, common: &CommonArgs) -> Result<Project, Outcome> {
-    load_for(path, common, Use::Check)
+    load_for(path, common, Use::Check, None)
+}
+
+/// The same with another text in place of the source's.
+pub(crate) fn load_replaced(path: &Path, common: &CommonArgs, text: Vec<u8>) -> Result<Project, Outcome> {
+    load_for(path, common, Use::Check, Some(text))
 }
 
 /// What a program is loaded for.
@@ -62,8 +69,8 @@ enum Use {
     Run,
 }
 
-fn load_for(path: &Path, common: &CommonArgs, purpose: Use) -> Result<Project, Outcome> {
-    let mut loader = Loader::default();
+fn load_for(path: &Path, common: &CommonArgs, purpose: Use, replaced: Option<Vec<u8>>) -> Result<Project, Outcome> {
+    let mut loader = Loader { replaced, ..Loader::default() };
     let place = loader.place(path);
     let width = common.real.map(crate::args::Real::width).or(place.config.width).unwrap_or_default();
     let period = period(common, &place.config, &mut loader.diagnostics)?;
@@ -83,6 +90,7 @@ fn load_for(path: &Path, common: &CommonArgs, purpose: Use) -> Result<Project, O
         catalogue,
         kernels: loader.kernels,
         config: place.config,
+        source: place.path.zip(place.source),
         timings: loader.timings,
         lines,
     })
@@ -120,7 +128,7 @@ pub(crate) fn load_draft(path: &Path, common: &CommonArgs, renumber: bool) -> Dr
 
 /// Loads a program for a command that needs it whole: prints the diagnostics, and stops at errors.
 pub(crate) fn load_verified(path: &Path, common: &CommonArgs) -> Result<(Project, Verified), Outcome> {
-    let mut project = load_for(path, common, Use::Run)?;
+    let mut project = load_for(path, common, Use::Run, None)?;
     console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
     match project.verified.take() {
         Some(verified) => Ok((project, verified)),
@@ -166,6 +174,8 @@ struct Loader {
     diagnostics: Vec<Diagnostic>,
     kernels: Vec<(String, String)>,
     timings: Vec<(&'static str, Duration)>,
+    /// Stands for the source's text.
+    replaced: Option<Vec<u8>>,
 }
 
 impl Loader {
@@ -179,7 +189,10 @@ impl Loader {
         let stem = source.as_deref().and_then(Path::file_stem).unwrap_or(path.as_os_str());
         let stem = stem.to_string_lossy().into_owned();
         let path = source;
-        let source = path.as_deref().and_then(|source| self.read_source(source, MAX_SOURCE));
+        let source = path.as_deref().and_then(|source| match self.replaced.take() {
+            Some(text) => Some(self.sources.add(source.display().to_string(), text)),
+            None => self.read_source(source, MAX_SOURCE),
+        });
         Place { source, path, root, stem, config }
     }
 
@@ -381,7 +394,7 @@ pub(crate) fn start_of(file: FileId) -> Span {
 }
 
 /// Reads a regular file of bounded size; anything else is refused without being opened for long.
-fn read_regular(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
+pub(crate) fn read_regular(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     let data = fs::metadata(path).map_err(|error| plain(&error))?;
     if data.is_dir() {
         return Err("it is a folder".to_owned());

@@ -1,0 +1,76 @@
+//! `pcl2 params`: a program's parameters, what differs from the source, and back into its literals.
+
+mod given;
+mod save;
+mod table;
+
+use crate::args::{CommonArgs, Format};
+use crate::console;
+use crate::outcome::Outcome;
+use crate::project::{self, Project};
+use clap::Args;
+use pcl2_lang::verify::Verified;
+use pcl2_sim::names::Names;
+use std::path::PathBuf;
+
+/// `pcl2 params`
+#[derive(Args, Debug)]
+pub(crate) struct ParamsArgs {
+    /// A .cfg file, or a folder with pcl2.toml
+    pub(crate) path: PathBuf,
+    /// Values to compare with the source: lines NAME=VALUE, as `run --params` writes them
+    #[arg(long, value_name = "FILE")]
+    pub(crate) from: Option<PathBuf>,
+    /// Print what differs from the source
+    #[arg(long, requires = "from", conflicts_with = "save")]
+    pub(crate) diff: bool,
+    /// Write what differs into the literals of the source
+    #[arg(long, requires = "from")]
+    pub(crate) save: bool,
+    /// How the table is printed
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Lists, compares or saves parameters.
+pub(crate) fn params(args: &ParamsArgs) -> Outcome {
+    let mut project = match project::load(&args.path, &args.common) {
+        Ok(project) => project,
+        Err(outcome) => return outcome,
+    };
+    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
+    let Some(verified) = project.verified.take() else {
+        return Outcome::Errors;
+    };
+    match &args.from {
+        None => {
+            console::out(&table::list(verified.program(), args.format));
+            Outcome::Done
+        }
+        Some(file) => compare(args, file, &project, &verified),
+    }
+}
+
+fn compare(args: &ParamsArgs, file: &std::path::Path, project: &Project, verified: &Verified) -> Outcome {
+    let names = Names::new(verified.program());
+    let changes = match given::read(file, &names) {
+        Ok(changes) => changes,
+        Err(complaints) => {
+            complaints.iter().for_each(|complaint| console::error(complaint));
+            return Outcome::Errors;
+        }
+    };
+    console::out(&table::differences(&names, &changes, args.format));
+    if !args.save {
+        return Outcome::Done;
+    }
+    match save::save(args, project, &names, &changes) {
+        Ok(outcome) => outcome,
+        Err(message) => {
+            console::error(&message);
+            Outcome::Failed
+        }
+    }
+}
