@@ -5,6 +5,7 @@ pub mod compilers;
 pub mod expect;
 pub mod fences;
 pub mod renamed;
+pub mod special;
 pub mod table;
 
 use std::path::{Path, PathBuf};

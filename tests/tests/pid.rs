@@ -131,7 +131,7 @@ fn direct_action_is_the_mirror_of_reverse_action() {
     let (trace, _) = Loop::new(program).run("--period 0.1 --steps 300", Some(&stimulus));
     assert_eq!(trace.values("a"), trace.values("b"));
     assert!(trace.values("a").iter().all(|u| (-10.0..=10.0).contains(u)));
-    assert!(trace.values("a").iter().any(|u| *u == 10.0), "the limit is reached");
+    assert!(trace.values("a").contains(&10.0), "the limit is reached");
 }
 
 #[test]
