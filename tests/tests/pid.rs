@@ -217,3 +217,30 @@ fn a_slave_in_automatic_makes_its_master_wait_at_its_set_point() {
     assert!(waits[205..300].iter().all(|mode| *mode == 4.0), "and says that it waits");
     assert!((valve[300] - valve[299]).abs() < 0.05, "{} after {}", valve[300], valve[299]);
 }
+
+#[test]
+fn tracking_is_left_without_a_bump_in_every_form() {
+    for form in ["isa", "parallel", "series", "erf"] {
+        let program = format!(
+            "CONTROL\n1 y = ain ( : 0, 1, 1 )\n2 trk = msi ( : 0 )\n3 utr = msc ( : 42.5 )\n4 ff = msc ( : 3. )\n\
+             5 u = apid ( y, trk = trk, utr = utr, ff = ff : K = 2., Ti = 10., Td = 1., Tf = 0.4, form = {form} )\nEND\n"
+        );
+        let stimulus = "k,\"ain(0,1,1)\",u.w,trk.value\n0,40,40,0\n50,,,1\n80,,,0\n";
+        let (trace, _) = Loop::new(&program).run("--period 0.1 --steps 120", Some(stimulus));
+        let (u, mode) = (trace.values("u"), trace.values("u.actual"));
+        assert_eq!((mode[49], mode[50], mode[79], mode[80]), (1.0, 3.0, 3.0, 1.0));
+        for scan in 50..120 {
+            assert!(ulps(u[scan], 42.5) <= 1, "{form}, scan {scan}: {}", u[scan]);
+        }
+    }
+}
+
+#[test]
+fn a_feed_forward_that_fails_stays_where_it_was() {
+    let program = "CONTROL\n1 y = ain ( : 0, 1, 1 )\n2 f = ain ( : 0, 1, 2 )\n\
+                   3 u = apid ( y, ff = f : K = 2., Ti = 10. )\nEND\n";
+    let stimulus = "k,\"ain(0,1,1)\",\"ain(0,1,2)\",u.w,u.um\n0,40,5,40,30\n10,,nan,,\n20,,5,,\n";
+    let (trace, said) = Loop::new(program).run("--period 0.1 --steps 30", Some(stimulus));
+    assert!(trace.values("u").iter().all(|u| ulps(*u, 30.0) <= 1));
+    assert!(said.contains("ff is not finite") || said.contains("the sample is bad"), "{said}");
+}
