@@ -1,4 +1,4 @@
-"""Golden cases of the dynamic blocks: lead-lags, integrals, delays.
+"""Golden cases of the dynamic blocks: lead-lags, integrals, delays, plants, difference equations, programs.
 
 Coefficients come from scipy's discretisation, sums from exact fractions. Parameters change while the blocks run, and
 samples are missing.
@@ -7,7 +7,7 @@ import math
 from fractions import Fraction
 
 import numpy as np
-from scipy.signal import cont2discrete
+from scipy.signal import cont2discrete, dlsim, lfilter, lfiltic
 
 import golden
 
@@ -223,7 +223,237 @@ END
                  "numpy's interpolation and mean", period=period)
 
 
+
+class Ring:
+    """Past good samples, the first one for ever before."""
+
+    def __init__(self):
+        self.samples = []
+
+    def push(self, x):
+        self.samples.append(x)
+
+    def past(self, i):
+        return self.samples[max(len(self.samples) - 1 - i, 0)]
+
+
+class Delayed:
+    """A state-space plant whose input comes td late: scipy's hold equivalents of the two parts of a scan."""
+
+    def __init__(self):
+        self.inputs = Ring()
+        self.x = None
+        self.y = 0.0
+
+    def step(self, u, a, b, c, td, period):
+        if not good(u):
+            return self.y
+        a, b, c = np.atleast_2d(a).astype(float), np.array(b, dtype=float).reshape(-1, 1), np.atleast_2d(c)
+        self.inputs.push(u)
+        if self.x is None:
+            self.x = np.linalg.solve(a, -b * u)
+        whole = math.floor(td / period + 1e-9)
+        part = td - whole * period
+        for length, late in ((part, whole + 1), (period - part, whole)):
+            if length > 1e-9:
+                f, g, *_ = cont2discrete((a, b, c, np.zeros((1, 1))), length)
+                self.x = f @ self.x + g * self.inputs.past(late)
+        self.y = (c @ self.x).item()
+        return self.y
+
+
+def plants():
+    period, steps = 0.25, 120
+    program = """
+! Plants with dead time and the second-order lag, damped, critical and not; parameters change, samples are missing.
+CONTROL
+1 u = ain ( : 0, 1, 1 )
+2 a = fopdt ( u, 8 : 2., 1.5, 0.6 )
+3 b = fopdt ( u, 2 : -1., 400., 0.5 )
+4 c = fopdt ( u, 1 : 1., 0.03, 0. )
+5 d = sopdt ( u, 8 : 1.5, 2., 0.5, 0.35 )
+6 e = sopdt ( u, 4 : 1., 0.7, 0.7, 1. )
+7 f = lag2 ( u : 2., 1.5, 0.3 )
+8 g = lag2 ( u : 1., 2., 1. )
+9 h = lag2 ( u : 0.5, 3., 4. )
+END
+"""
+    blocks = {name: Delayed() for name in "abcdefgh"}
+    stimulus, trace = [], []
+
+    def first(k, tau):
+        return [[-1 / tau]], [k / tau], [[1.0]]
+
+    def series(k, one, two):
+        return [[-1 / one, 0], [1 / two, -1 / two]], [k / one, 0], [[0, 1]]
+
+    def second(k, wn, z):
+        return [[0, 1], [-wn * wn, -2 * z * wn]], [0, k * wn * wn], [[1, 0]]
+
+    for k in range(steps):
+        u = math.nan if k in (0, 50, 51) else wave(k)
+        late = 1.9 if k >= 40 else 0.6
+        lag = 0.8 if k >= 70 else 1.5
+        two = 2.0 if k >= 60 else 0.5
+        speed = 4.0 if k >= 80 else 1.5
+        stimulus.append([k, u, late, lag, two, speed])
+        trace.append([k] + [
+            blocks["a"].step(u, *first(2.0, lag), late, period),
+            blocks["b"].step(u, *first(-1.0, 400.0), 0.5, period),
+            blocks["c"].step(u, *first(1.0, 0.03), 0.0, period),
+            blocks["d"].step(u, *series(1.5, 2.0, two), 0.35, period),
+            blocks["e"].step(u, *series(1.0, 0.7, 0.7), 1.0, period),
+            blocks["f"].step(u, *second(2.0, speed, 0.3), 0.0, period),
+            blocks["g"].step(u, *second(1.0, 2.0, 1.0), 0.0, period),
+            blocks["h"].step(u, *second(0.5, 3.0, 4.0), 0.0, period),
+        ])
+    golden.write("dead_time_plants", program, (["ain(0,1,1)", "a.td", "a.tau", "d.tau2", "f.wn"], stimulus),
+                 (list("abcdefgh"), trace), "scipy's matrix exponentials against expm1", period=period)
+
+
+class Recursion:
+    """The difference equation by scipy's lfilter on what has passed; clamping makes it go sample by sample."""
+
+    def __init__(self, na, nb, d):
+        self.na, self.past_x, self.past_y, self.y = na, nb + d, None, 0.0
+        self.nb, self.d = nb, d
+
+    def step(self, x, a, b, lo, hi):
+        if not good(x):
+            return self.y
+        if self.past_y is None:
+            rest = 0.0 if abs(1 + sum(a)) < 1e-12 else x * sum(b) / (1 + sum(a))
+            self.past_y = [min(max(rest, lo), hi)] * self.na
+            self.past_x = [x] * (self.nb + self.d)
+        numerator = [0.0] * self.d + list(b)
+        denominator = [1.0] + list(a)
+        state = lfiltic(numerator, denominator, self.past_y, self.past_x)
+        self.y = min(max(lfilter(numerator, denominator, [x], zi=state)[0][0], lo), hi)
+        self.past_y = ([self.y] + self.past_y)[:self.na]
+        self.past_x = [x] + self.past_x[:-1]
+        return self.y
+
+
+def difference_equations():
+    period, steps = 0.5, 100
+    program = """
+! Transfer functions in z, one clamped, one an integrator, one without poles; a state space in five matrices.
+INITIALIZE
+1 A = setmat ( 2, 2 : 0.9, 0.2, -0.3, 0.7 )
+2 B = setmat ( 2, 2 : 1., 0., 0.5, -1. )
+3 C = setmat ( 3, 2 : 1., 0., 0., 1., 1., -1. )
+4 D = setmat ( 3, 2 : 0., 0., 0.5, 0., 0., 2. )
+CONTROL
+5 x = ain ( : 0, 1, 1 )
+6 u2 = ain ( : 0, 1, 2 )
+7 a = ztf ( x, 2, 2, 0 : -1.5, 0.7, 0.3, -0.1, -1e9, 1e9 )
+8 b = ztf ( x, 1, 3, 4 : -0.9, 0.2, 0.3, -0.1, -2., 4. )
+9 c = ztf ( x, 1, 1, 1 : -1., 0.25, , )
+10 d = ztf ( x, 0, 4, 2 : 0.25, 0.25, 0.25, 0.25, , )
+11 u = setvec ( 2 : 0., 0. )
+12 u = ftov ( 2, x, 1 : )
+13 u = ftov ( 2, u2, 2 : )
+14 y, s = dss ( u, 2, 2, 3, A, B, C, D : 0.5, -1. )
+END
+"""
+    filters = {"a": Recursion(2, 2, 0), "b": Recursion(1, 3, 4), "c": Recursion(1, 1, 1), "d": Recursion(0, 4, 2)}
+    matrices = [np.array(m) for m in ([[0.9, 0.2], [-0.3, 0.7]], [[1.0, 0], [0.5, -1]],
+                                      [[1.0, 0], [0, 1], [1, -1]], [[0.0, 0], [0.5, 0], [0, 2]])]
+    stimulus, trace, inputs, kept = [], [], [], [0.0, 0.0, 0.0, 0.5, -1.0]
+    for k in range(steps):
+        x = math.nan if k in (0, 44, 45) else wave(k)
+        u2 = math.nan if k == 60 else round(math.cos(0.3 * k), 6)
+        gain = 0.6 if k >= 50 else 0.3
+        pole = -0.5 if k >= 70 else -0.9
+        stimulus.append([k, x, u2, gain, pole])
+        row = [
+            filters["a"].step(x, [-1.5, 0.7], [gain, -0.1], -1e9, 1e9),
+            filters["b"].step(x, [pole], [0.2, 0.3, -0.1], -2.0, 4.0),
+            filters["c"].step(x, [-1.0], [0.25], -1e30, 1e30),
+            filters["d"].step(x, [], [0.25] * 4, -1e30, 1e30),
+        ]
+        if good(x) and good(u2):
+            inputs.append([x, u2])
+            _, outputs, states = dlsim((*matrices, period), np.array(inputs + [[0.0, 0.0]]), x0=[0.5, -1.0])
+            kept = list(outputs[len(inputs) - 1]) + list(states[len(inputs) - 1])
+        trace.append([k] + row + kept)
+    columns = list("abcd") + ["y[1]", "y[2]", "y[3]", "s[1]", "s[2]"]
+    golden.write("difference_equations", program, (["ain(0,1,1)", "ain(0,1,2)", "a.b[1]", "b.a[1]"], stimulus),
+                 (columns, trace), "scipy's lfilter and dlsim in another order of the sums", period=period)
+
+
+def programs():
+    period, steps = 0.5, 100
+    program = """
+! Ramps and set-point programs: run, hold, reset, guaranteed soak; step, pulses and triangles. Rates and periods change.
+CONTROL
+1 tgt = ain ( : 0, 1, 1 )
+2 run = msi ( : 1 )
+3 rst = msi ( : 0 )
+4 stop = msi ( : 0 )
+5 fb = ain ( : 0, 1, 2 )
+6 a, there = ramp ( tgt, run, rst : 0.7, 2. )
+7 p, seg, done, left = profile ( run, stop, rst, 4 : 1., 4., 4.75, 15., 2., 5., 5., -1., 0. )
+8 q, qseg, qdone, qleft = profile ( run, , , 3, fb : 0., 4., 10., 0., 8., 8., 0.75 )
+9 one, oseg, odone, oleft = profile ( run, , rst, 1 : 2.25, 3., )
+10 s = stepgen ( : -1., 2., 10.2 )
+11 u = pulsgen ( : 2., 3.25, 1.1, -1., 2. )
+12 t = trigen ( : 2., 7., 0.5, 1.25 )
+END
+"""
+    ns = 10**9
+    tick = int(period * ns)
+    a = Fraction(2)
+    now = {"p": 0, "q": 0, "one": 0}
+    tables = {"p": ([1.0, 4.0, 4.75, 15.0], [2.0, 5.0, 5.0, -1.0]), "q": ([0.0, 4.0, 10.0], [0.0, 8.0, 8.0]), "one": ([2.25], [3.0])}
+    pulse, triangle, length = -2 * ns, -1250000000, 7 * ns
+    stimulus, trace = [], []
+    fb_state, ready = 0.0, 0
+    for k in range(steps):
+        tgt = math.nan if k in (0, 12) else 6.0 if k < 40 else -3.0 if k < 70 else 0.125
+        run = 0 if 20 <= k < 24 else 1
+        rst = 1 if k in (61, 62) else 0
+        stop = 1 if 10 <= k < 13 else 0
+        fb = math.nan if k in (5, 6) else round(fb_state, 6)
+        rate = 1.3 if k >= 45 else 0.7
+        width = 2.0 if k >= 50 else 1.1
+        if k == 60:
+            triangle, length = triangle * 5 // 7, 5 * ns
+        stimulus.append([k, tgt, run, rst, stop, fb, rate, width, length / ns])
+        if rst:
+            a = Fraction(2)
+        elif run and good(tgt):
+            step, gap = Fraction(rate) * Fraction(period), Fraction(tgt) - a
+            a = Fraction(tgt) if abs(gap) <= step else a + (step if gap > 0 else -step)
+        ready = int(a == Fraction(tgt)) if good(tgt) else ready
+        row = [float(a), ready]
+        for name, (times, values) in tables.items():
+            if rst and name != "q":
+                now[name] = 0
+            y = float(np.interp(now[name] / ns, times, values))
+            finished = now[name] >= times[-1] * ns
+            row += [y, sum(now[name] >= t * ns for t in times), int(finished), max(times[-1] - now[name] / ns, 0.0)]
+            waits = (name == "p" and stop) or (name != "q" and rst) or (name == "q" and not abs(y - fb) <= 0.75)
+            if run and not waits and not finished:
+                now[name] += tick
+            if name == "q":
+                fb_state += 0.35 * (y - fb_state)
+        row.append(2.0 if k * tick >= 10.2 * ns else -1.0)
+        row.append(-1.0 + (2.0 if 0 <= pulse and pulse % int(3.25 * ns) < width * ns else 0.0))
+        pulse += tick
+        row.append(0.5 + 2 * (float(np.interp(triangle % length / length, [0, 0.25, 0.75, 1], [0, 1, -1, 0])) if triangle > 0 else 0.0))
+        triangle += tick
+        trace.append([k] + row)
+    columns = ["a", "there", "p", "seg", "done", "left", "q", "qseg", "qdone", "qleft", "one", "oseg", "odone", "oleft", "s", "u", "t"]
+    golden.write("set_point_programs", program,
+                 (["ain(0,1,1)", "run.value", "rst.value", "stop.value", "ain(0,1,2)", "a.rate", "u.width", "t.period"], stimulus),
+                 (columns, trace), "numpy's interpolation", period=period)
+
+
 lead_lags()
 integrals()
 slow_integral()
 delays()
+plants()
+difference_equations()
+programs()
