@@ -18,7 +18,7 @@ fn builds(case: &Case) -> bool {
 
 #[test]
 fn every_case_expects_something() {
-    let files = ["trace.csv", "diagnostics.snap", "generated.snap"];
+    let files = ["trace.csv", "diagnostics.snap", "generated.snap", "diagram.snap"];
     none(&complaints(|case| {
         let expects = files.iter().any(|file| case.has(file)) || !expect::expected(case).is_empty();
         if expects { Ok(()) } else { Err("nothing is expected".to_owned()) }
@@ -86,22 +86,29 @@ fn traces_are_the_same_under_the_sanitizers() {
     }));
 }
 
+/// Rendered diagnostics, generated C, the block diagram.
+const SNAPSHOTS: [&str; 3] = ["diagnostics", "generated", "diagram"];
+
 #[test]
 fn snapshots_hold() {
     none(&complaints(|case| {
-        for name in ["diagnostics", "generated"] {
+        for name in SNAPSHOTS {
             let listed = case.config.snapshots.iter().any(|known| known == name);
             if listed || case.has(&format!("{name}.snap")) {
                 snapshot(case, name);
             }
         }
-        let unknown = case.config.snapshots.iter().find(|name| !["diagnostics", "generated"].contains(&name.as_str()));
+        let unknown = case.config.snapshots.iter().find(|name| !SNAPSHOTS.contains(&name.as_str()));
         unknown.map_or(Ok(()), |name| Err(format!("there is no snapshot of `{name}`")))
     }));
 }
 
 fn snapshot(case: &Case, name: &str) {
-    let text = if name == "generated" { generated(case) } else { rendered(case) };
+    let text = match name {
+        "generated" => generated(case),
+        "diagram" => diagram(case),
+        _ => rendered(case),
+    };
     let mut settings = insta::Settings::new();
     settings.set_snapshot_path(&case.folder);
     settings.set_prepend_module_to_snapshot(false);
@@ -111,6 +118,10 @@ fn snapshot(case: &Case, name: &str) {
 
 fn rendered(case: &Case) -> String {
     String::from_utf8_lossy(&run(&mut case.command("check")).stderr).into_owned()
+}
+
+fn diagram(case: &Case) -> String {
+    String::from_utf8_lossy(&run(case.command("graph").args(["-o", "-"])).stdout).into_owned()
 }
 
 /// NAME.h and NAME.c.

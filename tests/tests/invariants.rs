@@ -45,12 +45,13 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
 // 0. Dependencies point down.
 
 /// What each crate may depend on.
-const ARROWS: [(&str, &[&str]); 6] = [
+const ARROWS: [(&str, &[&str]); 7] = [
     ("pcl2-lang", &[]),
     ("pcl2-cfg", &["pcl2-lang"]),
     ("pcl2-emit", &["pcl2-lang"]),
     ("pcl2-sim", &["pcl2-lang"]),
-    ("pcl2-cli", &["pcl2-lang", "pcl2-cfg", "pcl2-emit", "pcl2-sim"]),
+    ("pcl2-draw", &["pcl2-lang"]),
+    ("pcl2-cli", &["pcl2-lang", "pcl2-cfg", "pcl2-emit", "pcl2-sim", "pcl2-draw"]),
     ("xtask", &["pcl2-lang", "pcl2-cfg", "pcl2-emit", "pcl2-sim"]),
 ];
 
@@ -274,6 +275,7 @@ fn the_same_source_gives_the_same_bytes_from_any_folder() {
 fn everything(case: &Case) -> Vec<(String, Vec<u8>)> {
     let checked = run(case.command("check").arg("-v"));
     let mut all = vec![("out".to_owned(), checked.stdout), ("err".to_owned(), checked.stderr)];
+    all.push(("graph".to_owned(), run(case.command("graph").args(["-o", "-"])).stdout));
     if case.has("trace.csv") {
         all.push(("trace".to_owned(), case.trace(case.run("cc", Width::F32)).unwrap().into_bytes()));
         let out = folder();
@@ -320,6 +322,7 @@ fn the_command_works_in_an_empty_environment() {
         &["run", &project, "--steps", "5", "--trace", "-", "--engine", "embedded"],
         &["run", &project, "--steps", "5", "--real", "f32"],
         &["build", &project, "-o", &target, "--emit", "c"],
+        &["graph", &project, "-o", "-"],
         &["blocks"],
         &["explain", "P0203"],
     ] {

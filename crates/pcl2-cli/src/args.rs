@@ -25,13 +25,15 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// List parameters, compare them with the source, or save them in it
     Params(crate::params::ParamsArgs),
+    /// Draw the block diagram of a program
+    Graph(GraphArgs),
     /// List the function codes, or describe one
     Blocks(BlocksArgs),
     /// Explain a diagnostic
     Explain(ExplainArgs),
 }
 
-/// What check, build and run share. The command line wins over pcl2.toml.
+/// What check, build, run and graph share. The command line wins over pcl2.toml.
 #[derive(Args, Debug, Clone, Default)]
 pub(crate) struct CommonArgs {
     /// The scan period in seconds
@@ -159,6 +161,18 @@ pub(crate) struct FmtArgs {
     /// A folder with function codes of your own
     #[arg(long, value_name = "DIR")]
     pub(crate) blocks: Vec<PathBuf>,
+}
+
+/// `pcl2 graph`
+#[derive(Args, Debug)]
+pub(crate) struct GraphArgs {
+    /// A .cfg file, or a folder with pcl2.toml
+    pub(crate) path: PathBuf,
+    /// The picture (`-`: to standard output)
+    #[arg(short, long, value_name = "SVG")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
 }
 
 /// `pcl2 blocks`

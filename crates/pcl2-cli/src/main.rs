@@ -8,6 +8,7 @@ mod config;
 mod console;
 mod explain;
 mod fmt;
+mod graph;
 mod io;
 mod outcome;
 mod output;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Params(args) => params::params(&args),
+        Command::Graph(args) => graph::graph(&args),
         Command::Blocks(args) => blocks::blocks(&args),
         Command::Explain(args) => explain::explain(&args),
     };

@@ -2,7 +2,7 @@
 
 mod compiled;
 mod embedded;
-mod files;
+pub(crate) mod files;
 mod job;
 mod pace;
 mod progress;
@@ -87,6 +87,12 @@ impl Failure {
     fn failed(message: impl Into<String>) -> Failure {
         Failure { outcome: Outcome::Failed, message: message.into() }
     }
+
+    /// Says what failed.
+    pub(crate) fn report(self) -> Outcome {
+        console::error(&self.message);
+        self.outcome
+    }
 }
 
 /// What an engine leaves.
@@ -120,10 +126,7 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
     });
     match ended {
         Ok(()) => Outcome::Done,
-        Err(failure) => {
-            console::error(&failure.message);
-            failure.outcome
-        }
+        Err(failure) => failure.report(),
     }
 }
 

@@ -1,0 +1,25 @@
+//! `pcl2 graph`
+
+use crate::args::GraphArgs;
+use crate::console;
+use crate::outcome::Outcome;
+use crate::project;
+use crate::run::files::{self, Output};
+
+/// Draws a program. A period need not be known.
+pub(crate) fn graph(args: &GraphArgs) -> Outcome {
+    let project = match project::load(&args.path, &args.common) {
+        Ok(project) => project,
+        Err(outcome) => return outcome,
+    };
+    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
+    let Some(verified) = &project.verified else {
+        return Outcome::Errors;
+    };
+    let picture = pcl2_draw::graph::svg(verified);
+    let written = Output::open(&args.output).and_then(|mut output| {
+        files::write(&args.output, &mut output, picture.as_bytes())?;
+        output.keep()
+    });
+    written.map_or_else(|failure| failure.report(), |()| Outcome::Done)
+}
