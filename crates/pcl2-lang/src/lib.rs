@@ -14,6 +14,7 @@ pub mod diagnostic;
 pub mod format;
 pub mod kernel;
 pub mod lexer;
+pub mod manual;
 pub mod model;
 pub mod program;
 pub mod render;

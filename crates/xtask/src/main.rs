@@ -1,6 +1,7 @@
 //! `cargo xtask`: the project's chores.
 
 mod bench;
+mod manual;
 mod packages;
 mod scaffold;
 mod shell;
@@ -23,6 +24,8 @@ enum Command {
     Test,
     /// Measure, and hold the numbers against the bars
     Bench(bench::BenchArgs),
+    /// Write docs/blocks.md from the declarations
+    Docs,
     /// Begin a function code: blocks/GROUP/CODE.fc and its kernel
     NewBlock {
         /// The group, a folder below blocks/
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Test => suite::test(),
         Command::Bench(args) => bench::bench(&args),
+        Command::Docs => manual::docs(),
         Command::NewBlock { group, code } => scaffold::new_block(&group, &code),
         Command::NewCase { name } => scaffold::new_case(&name),
     };

@@ -2,8 +2,8 @@
 
 use super::given::{Change, element_of};
 use crate::args::Format;
-use crate::blocks::range;
 use pcl2_lang::decl::{Decl, Tail};
+use pcl2_lang::manual::range;
 use pcl2_lang::model::Access;
 use pcl2_lang::program::Program;
 use pcl2_lang::types::Value;
