@@ -57,8 +57,8 @@ y.a       1.0   1/s  tunable
 y.b       0.1   1/s  tunable
 y.x0      0.0        fixed
 n.value   cool       tunable   off, heat, cool
-n.gain    1.0        tunable   from 0.0
-n.manual  0.0   %    operator  to 100.0
+n.gain    1.0        tunable   from 0.
+n.manual  0.0   %    operator  to 100.
 ";
     assert_eq!(out, expected);
     let (_, json, _) = said(folder.path(), &["params", "a.cfg", "--blocks", "blocks", "--format", "json"]);
