@@ -15,6 +15,8 @@ pub(crate) struct Cli {
 /// The commands.
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {
+    /// Make a project to begin with
+    New(crate::new::NewArgs),
     /// Check programs and print diagnostics
     Check(CheckArgs),
     /// Compile programs to C

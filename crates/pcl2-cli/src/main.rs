@@ -10,6 +10,7 @@ mod explain;
 mod fmt;
 mod graph;
 mod io;
+mod new;
 mod outcome;
 mod output;
 mod params;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         }
     };
     let outcome = match cli.command {
+        Command::New(args) => new::new(&args),
         Command::Check(args) => check::check(&args),
         Command::Build(args) => build::build(&args),
         Command::Run(args) => run::run(&args),
