@@ -385,7 +385,7 @@ END
 def programs():
     period, steps = 0.5, 100
     program = """
-! Ramps and set-point programs: run, hold, reset, guaranteed soak; step, pulses and triangles. Rates and periods change.
+! Ramps and set-point programs: run, hold, reset, guaranteed soak; step, pulses, triangles, sine. Rates and periods change.
 CONTROL
 1 tgt = ain ( : 0, 1, 1 )
 2 run = msi ( : 1 )
@@ -399,6 +399,7 @@ CONTROL
 10 s = stepgen ( : -1., 2., 10.2 )
 11 u = pulsgen ( : 2., 3.25, 1.1, -1., 2. )
 12 t = trigen ( : 2., 7., 0.5, 1.25 )
+13 w = singen ( : 1.5, 3.7, 0.4, -0.25, 2.5 )
 END
 """
     ns = 10**9
@@ -406,7 +407,7 @@ END
     a = Fraction(2)
     now = {"p": 0, "q": 0, "one": 0}
     tables = {"p": ([1.0, 4.0, 4.75, 15.0], [2.0, 5.0, 5.0, -1.0]), "q": ([0.0, 4.0, 10.0], [0.0, 8.0, 8.0]), "one": ([2.25], [3.0])}
-    pulse, triangle, length = -2 * ns, -1250000000, 7 * ns
+    pulse, triangle, length, sine = -2 * ns, -1250000000, 7 * ns, -2500000000
     stimulus, trace = [], []
     fb_state, ready = 0.0, 0
     for k in range(steps):
@@ -443,11 +444,52 @@ END
         pulse += tick
         row.append(0.5 + 2 * (float(np.interp(triangle % length / length, [0, 0.25, 0.75, 1], [0, 1, -1, 0])) if triangle > 0 else 0.0))
         triangle += tick
+        row.append(-0.25 + (1.5 * math.sin(2 * math.pi * sine / (3.7 * ns) + 0.4) if sine >= 0 else 0.0))
+        sine += tick
         trace.append([k] + row)
-    columns = ["a", "there", "p", "seg", "done", "left", "q", "qseg", "qdone", "qleft", "one", "oseg", "odone", "oleft", "s", "u", "t"]
+    columns = ["a", "there", "p", "seg", "done", "left", "q", "qseg", "qdone", "qleft", "one", "oseg", "odone", "oleft", "s", "u", "t", "w"]
     golden.write("set_point_programs", program,
                  (["ain(0,1,1)", "run.value", "rst.value", "stop.value", "ain(0,1,2)", "a.rate", "u.width", "t.period"], stimulus),
                  (columns, trace), "numpy's interpolation", period=period)
+
+
+def limiters():
+    period, steps = 0.2, 110
+    program = """
+! A rate limiter: limited both ways, tracking, told to wait and told of a limit downstream; rates change.
+CONTROL
+1 x = ain ( : 0, 1, 1 )
+2 trk = msi ( : 0 )
+3 xt = ain ( : 0, 1, 2 )
+4 back = setvec ( 2 : 0., 0. )
+5 L = ratelim ( x, trk, xt, back : 2., 5. )
+6 slow = ratelim ( x : 0.01, 0. )
+END
+"""
+    y, slow, bk, lim = None, None, [0.0, 0.0], 0
+    stimulus, trace = [], []
+    for k in range(steps):
+        x = math.nan if k in (0, 33, 34) else wave(k) if k < 60 else 1.0
+        trk = 1 if 40 <= k < 46 else 0
+        xt = math.nan if k == 43 else round(2 + 0.3 * k, 6)
+        state = 3 if k in (55, 56) else 1 if k in (70, 71) else 2 if k == 72 else 0
+        value = 9.5 if state == 3 else 0.75 if state else 0.0
+        up = 1.0 if k >= 20 else 2.0
+        stimulus.append([k, x, trk, xt, value, float(state), up])
+        if state == 3 or trk:
+            y = value if state == 3 else xt if good(xt) else y
+            bk, lim = [y, 3.0], 0
+        elif good(x):
+            before = x if y is None else y
+            y = min(max(x, before - 5 * period), before + up * period)
+            lim = 1 if y < x else 2 if y > x else 0
+            bk = [value, float(state)] if state else [y, float(lim)]
+        if good(x):
+            slow = x if slow is None else min(max(x, slow), slow + 0.01 * period)
+        trace.append([k, y or 0.0, lim] + bk + [slow or 0.0])
+    golden.write("rate_limiters", program,
+                 (["ain(0,1,1)", "trk.value", "ain(0,1,2)", "back.v[1]", "back.v[2]", "L.up"], stimulus),
+                 (["L", "L.lim", "L.bk[1]", "L.bk[2]", "slow"], trace), "another order of the sums", period=period)
 
 
 lead_lags()
@@ -457,3 +499,4 @@ delays()
 plants()
 difference_equations()
 programs()
+limiters()

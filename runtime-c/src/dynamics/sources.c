@@ -1,5 +1,6 @@
 /* Test signals. Time is counted in nanoseconds: within the period, or negative before the beginning. */
 #include "pcl2_sources.h"
+#include "pcl2_math.h"
 #include "pcl2_timing.h"
 
 PCL2_KERNEL void pcl2_stepgen_init(struct pcl2_stepgen *self, pcl2_real y0, pcl2_real y1, pcl2_real td)
@@ -99,5 +100,35 @@ PCL2_KERNEL void pcl2_trigen(struct pcl2_trigen *self)
     const pcl2_real quarters = self->now > 0 ? 4 * ((pcl2_real)self->now / (pcl2_real)self->length) : PCL2_R(0.0);
     const pcl2_real shape = quarters < 1 ? quarters : quarters < 3 ? 2 - quarters : quarters - 4;
     self->y = self->middle + self->size * shape;
+    self->now = pcl2_sources_next(self->now, self->tick, self->length);
+}
+
+PCL2_KERNEL void pcl2_singen_init(
+    struct pcl2_singen *self, pcl2_real amp, pcl2_real period, pcl2_real phase, pcl2_real bias, pcl2_real td)
+{
+    (void)amp;
+    (void)period;
+    (void)phase;
+    (void)bias;
+    self->now = -pcl2_set_time(td, self->tick);
+}
+
+PCL2_KERNEL void pcl2_singen_tune(
+    struct pcl2_singen *self, pcl2_real amp, pcl2_real period, pcl2_real phase, pcl2_real bias, int64_t T)
+{
+    const int64_t length = pcl2_sources_length(period, T);
+    self->now = pcl2_sources_rescaled(self->now, self->length, length);
+    self->size = amp;
+    self->middle = bias;
+    self->angle = phase;
+    self->tick = T;
+    self->length = length;
+}
+
+PCL2_KERNEL void pcl2_singen(struct pcl2_singen *self)
+{
+    const pcl2_real turn = PCL2_R(6.283185307179586476925);
+    const pcl2_real angle = turn * ((pcl2_real)self->now / (pcl2_real)self->length) + self->angle;
+    self->y = self->now < 0 ? self->middle : self->middle + self->size * pcl2_math_sin(angle);
     self->now = pcl2_sources_next(self->now, self->tick, self->length);
 }
