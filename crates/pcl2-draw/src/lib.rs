@@ -4,4 +4,5 @@
 //! input gives the same bytes.
 
 pub mod graph;
+pub mod plot;
 pub mod svg;

@@ -21,8 +21,8 @@ use pcl2_sim::engine::{Machine, Unsupported};
 use pcl2_sim::health::Health;
 use pcl2_sim::names::Names;
 use pcl2_sim::number::Number;
-use recorder::Recorder;
-use std::path::PathBuf;
+use recorder::{Recorded, Recorder};
+use std::path::{Path, PathBuf};
 
 /// `pcl2 run`
 #[derive(Args, Debug)]
@@ -44,6 +44,9 @@ pub(crate) struct RunArgs {
     /// Write the signals after every scan (`-`: to standard output)
     #[arg(long, value_name = "CSV")]
     pub(crate) trace: Option<PathBuf>,
+    /// Draw the signals over time (`-`: to standard output)
+    #[arg(long, value_name = "SVG")]
+    pub(crate) plot: Option<PathBuf>,
     /// Which signals to record, separated by commas; all of them if not given
     #[arg(long, value_name = "NAMES")]
     pub(crate) record: Vec<String>,
@@ -118,7 +121,7 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
             (None, false) => args.engine,
         };
         let engine = choose(wish, &verified)?;
-        let recorder = Recorder::new(&job, args.trace.as_deref())?;
+        let recorder = Recorder::new(&job, args.trace.as_deref(), args.plot.is_some())?;
         execute(args, &job, recorder, |recorder| match engine {
             Some(machine) => embedded::run(&job, machine, recorder),
             None => compiled::run(&job, &verified, &project, &toolchain, recorder),
@@ -162,14 +165,22 @@ fn execute(
     mut recorder: Recorder,
     engine: impl FnOnce(&mut Recorder) -> Result<Finished, Failure>,
 ) -> Result<(), Failure> {
-    let to_stdout = args.trace.as_deref().is_some_and(files::is_stdout);
-    let mut params = args.params.as_deref().map(|path| Ok((path, Output::open(path)?))).transpose()?;
+    let is_stdout = |path: &Option<PathBuf>| path.as_deref().is_some_and(files::is_stdout);
+    if is_stdout(&args.trace) && is_stdout(&args.plot) {
+        return Err(Failure::usage("only one of --trace and --plot can go to standard output"));
+    }
+    let to_stdout = is_stdout(&args.trace) || is_stdout(&args.plot);
+    let mut params = open(args.params.as_deref())?;
+    let mut plot = open(args.plot.as_deref())?;
     let finished = engine(&mut recorder)?;
-    let (history, trace) = recorder.finish()?;
+    let Recorded { history, trends, trace } = recorder.finish()?;
     if let Some((path, output)) = &mut params {
         files::write(path, output, job.params_text(&finished.params).as_bytes())?;
     }
-    for output in trace.into_iter().chain(params.map(|(_, output)| output)) {
+    if let (Some((path, output)), Some(trends)) = (&mut plot, trends) {
+        files::write(path, output, trends.svg().as_bytes())?;
+    }
+    for output in trace.into_iter().chain([params, plot].into_iter().flatten().map(|(_, output)| output)) {
         output.keep()?;
     }
     if !to_stdout {
@@ -179,4 +190,9 @@ fn execute(
         console::err(&line);
     }
     Ok(())
+}
+
+/// Opens an output that is wanted.
+fn open(path: Option<&Path>) -> Result<Option<(&Path, Output)>, Failure> {
+    path.map(|path| Ok((path, Output::open(path)?))).transpose()
 }

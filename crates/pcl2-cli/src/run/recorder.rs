@@ -1,8 +1,10 @@
-//! Takes rows from an engine: into the trace, and a few of them into the history that the summary draws.
+//! Takes rows from an engine: into the trace, into the trends that are plotted, and a few of them into the history
+//! that the summary draws.
 
 use super::Failure;
 use super::files::{self, Output};
 use super::job::Job;
+use pcl2_draw::plot::{self, Trends};
 use pcl2_sim::number::Number;
 use pcl2_sim::trace::TraceWriter;
 use std::io::{self, BufWriter};
@@ -16,6 +18,7 @@ pub(crate) const SHOWN: usize = 40;
 /// The recorder of one run.
 pub(crate) struct Recorder {
     trace: Option<TraceWriter<BufWriter<Output>>>,
+    trends: Option<Trends>,
     path: PathBuf,
     scans: u64,
     history: History,
@@ -26,6 +29,14 @@ pub(crate) struct Recorder {
 pub(crate) struct History {
     /// One list of values for each sample, the first columns only.
     pub(crate) samples: Vec<Vec<Number>>,
+}
+
+/// What a run leaves behind.
+pub(crate) struct Recorded {
+    pub(crate) history: History,
+    pub(crate) trends: Option<Trends>,
+    /// The complete trace; it takes its place when it is kept.
+    pub(crate) trace: Option<Output>,
 }
 
 /// How recording went.
@@ -39,7 +50,7 @@ pub(crate) enum Recording {
 
 impl Recorder {
     /// Opens the trace, if one is wanted.
-    pub(crate) fn new(job: &Job<'_>, path: Option<&Path>) -> Result<Recorder, Failure> {
+    pub(crate) fn new(job: &Job<'_>, path: Option<&Path>, plotted: bool) -> Result<Recorder, Failure> {
         let mut trace = None;
         if let Some(path) = path {
             let output = BufWriter::with_capacity(1 << 16, Output::open(path)?);
@@ -47,12 +58,17 @@ impl Recorder {
             trace = Some(writer.map_err(|error| files::cannot_write(path, &error))?);
         }
         let path = path.map(Path::to_path_buf).unwrap_or_default();
-        Ok(Recorder { trace, path, scans: job.scans, history: History::default() })
+        let trends = plotted.then(|| trends(job));
+        Ok(Recorder { trace, trends, path, scans: job.scans, history: History::default() })
     }
 
     /// The next scan, not before this one, whose row is wanted.
     pub(crate) fn next(&self, scan: u64) -> u64 {
-        if self.trace.is_some() { scan } else { self.next_sample(scan) }
+        if self.takes_all() { scan } else { self.next_sample(scan) }
+    }
+
+    fn takes_all(&self) -> bool {
+        self.trace.is_some() || self.trends.is_some()
     }
 
     /// The samples are spread evenly, the last scan is one of them.
@@ -67,7 +83,7 @@ impl Recorder {
 
     /// The scans whose rows are wanted; `None` for every scan.
     pub(crate) fn samples(&self) -> Option<Vec<u64>> {
-        if self.trace.is_some() {
+        if self.takes_all() {
             return None;
         }
         let first = self.next_sample(0);
@@ -79,6 +95,9 @@ impl Recorder {
     pub(crate) fn row(&mut self, scan: u64, values: &[Number]) -> Result<Recording, Failure> {
         if self.next_sample(scan) == scan {
             self.history.samples.push(values.iter().take(SHOWN).copied().collect());
+        }
+        if let Some(trends) = &mut self.trends {
+            trends.row(scan, values.iter().map(|value| value.to_f64()));
         }
         let Some(trace) = &mut self.trace else {
             return Ok(Recording::Open);
@@ -94,16 +113,26 @@ impl Recorder {
         if closed { Ok(()) } else { Err(files::cannot_write(&self.path, error)) }
     }
 
-    /// Completes the trace; it takes its place when the output is kept.
-    pub(crate) fn finish(mut self) -> Result<(History, Option<Output>), Failure> {
-        let Some(trace) = self.trace.take() else {
-            return Ok((self.history, None));
+    /// Completes the trace.
+    pub(crate) fn finish(mut self) -> Result<Recorded, Failure> {
+        let trace = match self.trace.take() {
+            Some(trace) => self.complete(trace)?,
+            None => None,
         };
-        let output = match trace.finish().map(BufWriter::into_inner) {
-            Ok(Ok(output)) => Some(output),
-            Ok(Err(error)) => self.broken(error.error()).map(|()| None)?,
-            Err(error) => self.broken(&error).map(|()| None)?,
-        };
-        Ok((self.history, output))
+        Ok(Recorded { history: self.history, trends: self.trends, trace })
     }
+
+    fn complete(&self, trace: TraceWriter<BufWriter<Output>>) -> Result<Option<Output>, Failure> {
+        match trace.finish().map(BufWriter::into_inner) {
+            Ok(Ok(output)) => Ok(Some(output)),
+            Ok(Err(error)) => self.broken(error.error()).map(|()| None),
+            Err(error) => self.broken(&error).map(|()| None),
+        }
+    }
+}
+
+fn trends(job: &Job<'_>) -> Trends {
+    let program = job.names.program;
+    let points = job.columns.iter().map(|column| (job.names.point(*column), job.names.label(*column)));
+    Trends::new(&program.name, job.scans, program.period, plot::signals(program, points))
 }
