@@ -255,3 +255,30 @@ fn an_interrupted_run_leaves_nothing() {
         assert_eq!(left, ["lag.cfg"]);
     }
 }
+
+#[test]
+fn a_late_row_makes_no_endless_run() {
+    let folder =
+        folder(&[("lag.cfg", LAG), ("s.csv", "t,w.value\n0,1\n1e18,2\n"), ("k.csv", "k,w.value\n1000000000,2\n")]);
+    for file in ["s.csv", "k.csv"] {
+        let (code, out, err) = said(&pcl2_run(folder.path(), &["lag.cfg", "--period", "1e9", "--stimulus", file]));
+        assert_eq!((code, out.as_str()), (2, ""));
+        let expected =
+            "error: the last row of the stimulus is before scan 1000000000: a run so long needs --steps or --until\n";
+        assert_eq!(err, expected);
+        let steps = pcl2_run(folder.path(), &["lag.cfg", "--period", "1e9", "--stimulus", file, "--steps", "2"]);
+        assert_eq!(said(&steps).0, 0);
+    }
+}
+
+#[test]
+fn a_fault_in_a_composite_says_where() {
+    let pair = "! Two samples.\nreal y = pair ( real a, real b : )\nBODY\n1 u = aout2 ( a : )\n2 v = aout2 ( b : )\n3 y = sumII ( 1, u, v, 2 : 1., 1. )\nEND\n\
+                ! One.\nreal y = aout2 ( real a : )\nBODY\n1 y = div ( a, z : )\n2 z = sumII ( 1, a, a, 2 : 1., -1. )\nEND\n";
+    let source = "CONTROL\n1 x = msc ( : 1. )\n2 y = pair ( x, x : )\nEND\n";
+    let folder = folder(&[("blocks/pair.fc", pair), ("a.cfg", source)]);
+    let (code, _, err) =
+        said(&pcl2_run(folder.path(), &["a.cfg", "--blocks", "blocks", "--period", "1", "--steps", "1"]));
+    assert_eq!(code, 0);
+    assert!(err.contains("block 2 `y` (pair): in `u`: in `y`: ") && err.contains(", or in `v`: in `y`: "), "{err}");
+}

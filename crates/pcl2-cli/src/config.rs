@@ -14,7 +14,7 @@ pub(crate) struct Config {
     /// `[controller] name`
     pub(crate) name: Option<String>,
     /// `[controller] source`
-    pub(crate) source: Option<String>,
+    pub(crate) source: Option<(String, Span)>,
     /// `[controller] period`, as a decimal of seconds.
     pub(crate) period: Option<(String, Span)>,
     /// `[controller] real`
@@ -22,7 +22,7 @@ pub(crate) struct Config {
     /// `[controller] target`
     pub(crate) target: Option<String>,
     /// `[controller] blocks`
-    pub(crate) blocks: Vec<String>,
+    pub(crate) blocks: Vec<(String, Span)>,
     /// `[sim] substeps`
     pub(crate) substeps: Option<u32>,
     /// `[build] tunable`
@@ -121,11 +121,11 @@ impl Reader<'_> {
         for (key, value) in section.iter() {
             match key.get_ref().as_ref() {
                 "name" => config.name = self.text(value),
-                "source" => config.source = self.text(value),
+                "source" => config.source = self.text(value).map(|name| (name, self.span(&value.span()))),
                 "period" => config.period = self.number(value).map(|number| (number, self.span(&value.span()))),
                 "real" => config.width = self.width(value),
                 "target" => config.target = self.text(value),
-                "blocks" => config.blocks = self.texts(value),
+                "blocks" => config.blocks = self.places(value),
                 _ => self.unknown(key, &["name", "source", "period", "real", "target", "blocks"], "a key"),
             }
         }
@@ -276,6 +276,14 @@ impl Reader<'_> {
             return Vec::new();
         };
         list.iter().filter_map(|item| self.text(item)).collect()
+    }
+
+    /// Strings, each with its place.
+    fn places(&mut self, value: &Spanned<DeValue<'_>>) -> Vec<(String, Span)> {
+        let DeValue::Array(list) = value.get_ref() else {
+            return self.texts(value).into_iter().map(|text| (text, self.span(&value.span()))).collect();
+        };
+        list.iter().filter_map(|item| Some((self.text(item)?, self.span(&item.span())))).collect()
     }
 
     fn width(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Width> {

@@ -186,23 +186,24 @@ impl Loader {
             let root = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
             (Some(path.to_path_buf()), root.to_path_buf(), Config::default())
         };
+        let named = config.source.as_ref().map(|(_, span)| *span);
         let stem = source.as_deref().and_then(Path::file_stem).unwrap_or(path.as_os_str());
         let stem = stem.to_string_lossy().into_owned();
         let path = source;
         let source = path.as_deref().and_then(|source| match self.replaced.take() {
             Some(text) => Some(self.sources.add(source.display().to_string(), text)),
-            None => self.read_source(source, MAX_SOURCE),
+            None => self.read_source(source, MAX_SOURCE, named),
         });
         Place { source, path, root, stem, config }
     }
 
     fn folder(&mut self, path: &Path) -> (Option<PathBuf>, PathBuf, Config) {
         let root = path.to_path_buf();
-        let Some(file) = self.read_source(&path.join("pcl2.toml"), MAX_SOURCE) else {
+        let Some(file) = self.read_source(&path.join("pcl2.toml"), MAX_SOURCE, None) else {
             return (None, root, Config::default());
         };
         let config = config::read(&self.sources, file, &mut self.diagnostics);
-        let source = config.source.as_ref().map(|name| path.join(name));
+        let source = config.source.as_ref().map(|(name, _)| path.join(name));
         if source.is_none() && !self.diagnostics.iter().any(Diagnostic::is_error) {
             let message = "expected `source` in [controller], found none";
             self.diagnostics.push(Diagnostic::new(codes::CONFIGURATION, start_of(file), message));
@@ -210,8 +211,8 @@ impl Loader {
         (source, root, config)
     }
 
-    /// Reads a source; a file that cannot be read is a diagnostic.
-    fn read_source(&mut self, path: &Path, limit: u64) -> Option<FileId> {
+    /// Reads a source; a file that cannot be read is a diagnostic, where the file is named if that is a place.
+    fn read_source(&mut self, path: &Path, limit: u64, named: Option<Span>) -> Option<FileId> {
         let clock = Instant::now();
         let name = path.display().to_string();
         match read_regular(path, limit) {
@@ -221,9 +222,9 @@ impl Loader {
                 Some(file)
             }
             Err(why) => {
-                let file = self.sources.add(name.clone(), Vec::new());
                 let message = format!("expected a readable file, found `{name}`: {why}");
-                self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, start_of(file), message));
+                let span = named.unwrap_or_else(|| start_of(self.sources.add(name, Vec::new())));
+                self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, span, message));
                 None
             }
         }
@@ -232,22 +233,24 @@ impl Loader {
     fn catalogue(&mut self, place: &Place, common: &CommonArgs) -> Catalogue {
         let clock = Instant::now();
         let mut catalogue = Catalogue::packed(&mut self.sources, &mut self.symbols, &mut self.diagnostics);
-        let folders = place.config.blocks.iter().map(|folder| place.root.join(folder));
-        let folders: Vec<PathBuf> = folders.chain(common.blocks.iter().cloned()).collect();
-        for folder in folders {
-            self.user_blocks(&folder, &mut catalogue);
+        for (folder, span) in &place.config.blocks {
+            self.user_blocks(&place.root.join(folder), Some(*span), &mut catalogue);
+        }
+        for folder in &common.blocks {
+            self.user_blocks(folder, None, &mut catalogue);
         }
         self.timings.push(("blocks", clock.elapsed()));
         catalogue
     }
 
-    fn user_blocks(&mut self, folder: &Path, catalogue: &mut Catalogue) {
+    fn user_blocks(&mut self, folder: &Path, named: Option<Span>, catalogue: &mut Catalogue) {
         let names = match sorted_names(folder) {
             Ok(names) => names,
             Err(error) => {
-                let file = self.sources.add(folder.display().to_string(), Vec::new());
-                let message = format!("expected a folder with blocks, found `{}`: {error}", folder.display());
-                self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, start_of(file), message));
+                let shown = folder.display().to_string();
+                let message = format!("expected a folder with blocks, found `{shown}`: {error}");
+                let span = named.unwrap_or_else(|| start_of(self.sources.add(shown, Vec::new())));
+                self.diagnostics.push(Diagnostic::new(codes::UNREADABLE, span, message));
                 return;
             }
         };

@@ -66,7 +66,7 @@ fn describe(bounds: &Bounds, lower: Option<f64>, upper: Option<f64>) -> String {
     [lower, upper].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
-fn show(value: f64) -> String {
+pub(crate) fn show(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 { format!("{value:.0}") } else { format!("{value:?}") }
 }
 

@@ -85,7 +85,7 @@ pub fn block_title(program: &Program, id: BlockId) -> String {
     }
 }
 
-/// The text of a status. Inside a composite the first text with that number stands for all that share it.
+/// The text of a status. That of a composite comes from the blocks in it that have one with that number; several may.
 fn text(program: &Program, block: &Block, status: i32) -> Option<String> {
     let decl = program.decl(block.decl);
     let index = usize::try_from(status).ok()?.checked_sub(1)?;
@@ -93,9 +93,8 @@ fn text(program: &Program, block: &Block, status: i32) -> Option<String> {
         return Some(fault.text.clone());
     }
     let inner = program.unit(block.unit?);
-    let mut texts: Vec<String> = inner.blocks.iter().filter_map(|inner| text(program, inner, status)).collect();
-    texts.sort();
-    texts.dedup();
+    let said = |inner: &Block| Some(format!("in `{}`: {}", inner.name, text(program, inner, status)?));
+    let texts: Vec<String> = inner.blocks.iter().filter_map(said).collect();
     (!texts.is_empty()).then(|| texts.join(", or "))
 }
 

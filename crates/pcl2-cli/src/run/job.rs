@@ -10,6 +10,9 @@ use pcl2_sim::trace;
 use std::fmt::Write;
 use std::path::Path;
 
+/// A stimulus makes no run longer than this: its last time is a slip, most likely.
+const MAX_IMPLIED: u64 = 1_000_000_000;
+
 /// A run, prepared.
 pub(crate) struct Job<'a> {
     pub(crate) names: &'a Names<'a>,
@@ -81,6 +84,11 @@ fn scans(args: &RunArgs, period: Option<i64>, last: Option<u64>) -> Result<u64, 
         return Ok(steps);
     }
     let Some(until) = &args.until else {
+        if let Some(last) = last.filter(|last| *last >= MAX_IMPLIED) {
+            let message =
+                format!("the last row of the stimulus is before scan {last}: a run so long needs --steps or --until");
+            return Err(Failure::usage(message));
+        }
         let last = last.and_then(|last| last.checked_add(1));
         return last.ok_or_else(|| Failure::usage("how long? Give --steps, --until, or a --stimulus with rows"));
     };

@@ -3,6 +3,7 @@
 pub mod raw;
 
 use crate::ast::{Line, Name, Number, Operand, Statement};
+use crate::bounds;
 use crate::codes;
 use crate::decl::{
     BadRule, Bounds, ConstantDecl, Decl, Direction, Example, Expr, Fault, Field, Group, Image, Item, OutputDecl,
@@ -14,7 +15,7 @@ use crate::lexer::{Key, Token};
 use crate::source::{FileId, Sources, Span};
 use crate::symbol::Symbols;
 use crate::syntax::{Context, Lines, parse_body_line, parse_declaration_line};
-use crate::types::{Real, Scalar, Value};
+use crate::types::{Real, Scalar, Value, Width};
 use raw::Raw;
 
 /// What one file declares.
@@ -169,6 +170,7 @@ fn head(context: &mut Context<'_>, outputs: &[raw::Output], call: &raw::Call) ->
         let name = context.symbol_text(param.name.symbol).to_owned();
         decl.params.push(ParamDecl { name, ty, fixed: param.fixed, default, tail });
     }
+    check_defaults(context, &decl, call);
     for output in outputs {
         let ty = declare_type(context, &decl, &output.ty);
         let tail = declare_tail(context, &decl, &output.tail);
@@ -177,6 +179,31 @@ fn head(context: &mut Context<'_>, outputs: &[raw::Output], call: &raw::Call) ->
         decl.outputs.push(OutputDecl { name, ty, inout: output.inout, group, tail });
     }
     decl
+}
+
+/// A default must be in its own range, as far as that is known without sizes and without values for other places.
+fn check_defaults(context: &mut Context<'_>, decl: &Decl, call: &raw::Call) {
+    let unknown = || Value::Text("".into());
+    let values: Vec<Value> = decl.params.iter().map(|param| param.default.clone().unwrap_or_else(unknown)).collect();
+    if let Err(found) = bounds::check(decl, &[], &values, Width::F64) {
+        let name = &decl.params[found.param].name;
+        let message = format!("expected a default of `{name}` {}, found {}", found.expected, found.found);
+        complain(context, call.params[found.param].name.span, message);
+    }
+    for (item, written) in decl.items.iter().zip(&call.items) {
+        let (Item::Port(port), raw::Item::Port(written)) = (item, written) else {
+            continue;
+        };
+        let value = match port.default {
+            Some(Value::Int(value)) => f64::from(value),
+            Some(Value::Real(value)) if value.wide.is_finite() => value.wide,
+            _ => continue,
+        };
+        if let Some(expected) = bounds::check_value(&port.tail, value, &[]) {
+            let message = format!("expected a default of `{}` {expected}, found {}", port.name, bounds::show(value));
+            complain(context, written.name.span, message);
+        }
+    }
 }
 
 /// Constants first, in order, then names that only port types mention.

@@ -117,7 +117,10 @@ pub(super) fn rules(decl: &Decl) -> Vec<(&'static str, String)> {
     }
     match decl.operator.as_deref() {
         None => {}
-        Some("") => rules.push(("Expression", format!("`{} (..)`, a function.", decl.name))),
+        Some("") => {
+            let ports: Vec<&str> = decl.ports().map(|port| port.name.as_str()).collect();
+            rules.push(("Expression", format!("`{}({})`, a function.", decl.name, ports.join(", "))));
+        }
         Some(sign) => rules.push(("Expression", format!("`{sign}`, an operator."))),
     }
     if let Some(image) = decl.image {
