@@ -125,7 +125,8 @@ impl Case {
     /// Whether it has C of its own, which the embedded engine cannot run.
     pub fn has_own_c(&self) -> bool {
         let blocks = self.folder.join("blocks");
-        blocks.is_dir() && !crate::compilers::files(&blocks, "c").is_empty()
+        let has = |extension| !crate::compilers::files(&blocks, extension).is_empty();
+        blocks.is_dir() && (has("c") || has("h"))
     }
 
     /// The width that the case is about.
