@@ -235,7 +235,7 @@ fn a_fault_inside_a_composite_is_its_own() {
     let text = "CONTROL\n1 u = msc ( : 1e308 )\n2 y = guarded ( u : )\nEND\n";
     let program = compile_with(&[("guarded", own)], text, Some(5_000_000_000), Width::F64, 1);
     let (_, health) = run(&program, "k\n", &[], 2);
-    let text = "block 2 `y` (guarded): the state left the range of a real and was held";
+    let text = "block 2 `y` (guarded): in `y`: the state left the range of a real and was held";
     assert_eq!(
         health,
         [format!("first fault: scan 0, {text}"), format!("last fault: scan 1, {text}"), "faults: 2".to_owned()]
