@@ -7,7 +7,7 @@ import math
 from fractions import Fraction
 
 import numpy as np
-from scipy.signal import cont2discrete, dlsim, lfilter, lfiltic
+from scipy.signal import chirp, cont2discrete, dlsim, lfilter, lfiltic
 
 import golden
 
@@ -143,25 +143,40 @@ END
                  single=(1e-4, "a float holds eight digits of 1e9 counts"))
 
 
-def slow_integral():
+def slow_in_float():
     """What a plain float sum never does: 50 + 2.8e-7 is 50."""
     program = """
-! A slow integral that a plain sum in float would not move, and a total of small counts.
+! Slow blocks that a plain sum in float would not move, and a total of small counts.
 CONTROL
 1 e = msc ( : 0.1 )
 2 y = integ ( e : k = 0.0002777777777777778, y0 = 50., mode = euler )
 3 z = integ ( e : k = 0.0002777777777777778, y0 = 50. )
 4 r, wrap = total ( e : k = 0.001 )
+5 g = ramp ( e : 0.00002, 50. )
+6 x = stepgen ( : 50., 51., 0.01 )
+7 l = leadlag ( x : 1., 0., 2000. )
+8 f = fopdt ( x, 1 : 1., 2000., 0. )
+9 s = lag2 ( x : 1., 0.01, 1. )
+10 w = washout ( x : 2000. )
 END
 """
     period, steps = 0.01, 300
     step = Fraction(0.0002777777777777778) * Fraction(0.01) * Fraction(0.1)
+    lag, high, plant, second = Lag(), Lag(), Delayed(), Delayed()
     trace = []
     for k in range(steps):
         y = float(50 + (k + 1) * step)
-        trace.append([k, y, y, float((k + 1) * Fraction(1e-3) * Fraction(0.01) * Fraction(0.1))])
-    golden.write("slow_integral", program, (["e.value"], [[k, 0.1] for k in range(steps)]), (["y", "z", "r"], trace),
-                 "exact sums", period=period, single=(1.2e-7, "one unit in the last place of a float", 1e-9))
+        x = 51.0 if k else 50.0
+        trace.append([
+            k, y, y, float((k + 1) * Fraction(1e-3) * Fraction(0.01) * Fraction(0.1)), 50 - (k + 1) * 2e-7,
+            lag.step(x, [0.0, 1], [2000.0, 1], "bilinear", period),
+            plant.step(x, [[-1 / 2000]], [1 / 2000], [[1.0]], 0.0, period),
+            second.step(x, [[0, 1], [-1e-4, -0.02]], [0, 1e-4], [[1, 0]], 0.0, period),
+            high.step(x, [2000.0, 0], [2000.0, 1], "backward_diff", period),
+        ])
+    golden.write("slow_in_float", program, (["e.value"], [[k, 0.1] for k in range(steps)]),
+                 (["y", "z", "r", "g", "l", "f", "s", "w"], trace), "scipy rounds 1 - 5e-6 before it sums",
+                 relative=1e-10, period=period, single=(1.2e-7, "one unit in the last place of a float", 1e-9))
 
 
 def delays():
@@ -385,7 +400,7 @@ END
 def programs():
     period, steps = 0.5, 100
     program = """
-! Ramps and set-point programs: run, hold, reset, guaranteed soak; step, pulses, triangles, sine. Rates and periods change.
+! Ramps and set-point programs: run, hold, reset, guaranteed soak; step, pulses, triangles, sine, sweep. Rates and periods change.
 CONTROL
 1 tgt = ain ( : 0, 1, 1 )
 2 run = msi ( : 1 )
@@ -400,6 +415,7 @@ CONTROL
 11 u = pulsgen ( : 2., 3.25, 1.1, -1., 2. )
 12 t = trigen ( : 2., 7., 0.5, 1.25 )
 13 w = singen ( : 1.5, 3.7, 0.4, -0.25, 2.5 )
+14 c = sweep ( : 2., 0.05, 0.6, 20., 0.25, 1. )
 END
 """
     ns = 10**9
@@ -446,8 +462,11 @@ END
         triangle += tick
         row.append(-0.25 + (1.5 * math.sin(2 * math.pi * sine / (3.7 * ns) + 0.4) if sine >= 0 else 0.0))
         sine += tick
+        time = k * period - 1
+        row.append(0.25 + (2 * chirp(time % 20, 0.05, 20, 0.6, phi=-90) if time > 0 else 0.0))
         trace.append([k] + row)
-    columns = ["a", "there", "p", "seg", "done", "left", "q", "qseg", "qdone", "qleft", "one", "oseg", "odone", "oleft", "s", "u", "t", "w"]
+    columns = ["a", "there", "p", "seg", "done", "left", "q", "qseg", "qdone", "qleft", "one", "oseg", "odone", "oleft",
+               "s", "u", "t", "w", "c"]
     golden.write("set_point_programs", program,
                  (["ain(0,1,1)", "run.value", "rst.value", "stop.value", "ain(0,1,2)", "a.rate", "u.width", "t.period"], stimulus),
                  (columns, trace), "numpy's interpolation", period=period)
@@ -492,11 +511,76 @@ END
                  (["L", "L.lim", "L.bk[1]", "L.bk[2]", "slow"], trace), "another order of the sums", period=period)
 
 
+def by_section():
+    """A block's period is that of its section: 0.3 s in CONTROL 3 1, 0.025 s in a PLANT of four substeps."""
+    period, steps = 0.1, 90
+    program = """
+! Blocks that count time in a plant of substeps, in every scan and in every third one.
+PLANT
+1 a = fopdt ( b, 20 : 1., 0.4, 0.0375 )
+CONTROL
+2 x = ain ( : 0, 1, 1 )
+3 b = integ ( x : 1., -50., 50., 0., euler )
+CONTROL 3 1
+4 c = integ ( x : 1., -50., 50., 0., trap )
+5 td = ain ( : 0, 1, 2 )
+6 d = dead ( x, td, 4 : )
+7 e = fopdt ( x, 4 : 1., 2., 0.95 )
+8 f = stepgen ( : 0., 1., 3. )
+9 g = ramp ( x : 0.5, 0. )
+END
+"""
+    plant, slow = Delayed(), Delayed()
+    b, c = Integral(0.0), Integral(0.0)
+    samples, g, held = [], Fraction(0), [0.0] * 5
+    stimulus, trace, u = [], [], 0.0
+    lag, other = ([[-1 / 0.4]], [1 / 0.4], [[1.0]]), ([[-0.5]], [0.5], [[1.0]])
+    for k in range(steps):
+        x, td = wave(k), round(0.4 + 0.005 * k, 6)
+        stimulus.append([k, x, td])
+        for _ in range(4):
+            a = plant.step(u, *lag, 0.0375, period / 4)
+        u = b.step(x, 1, -50, 50, 0, "euler", Fraction(1, 10))
+        if k % 3 == 1:
+            samples.append(x)
+            times = 0.3 * (np.arange(len(samples)) - len(samples) + 1)
+            way = Fraction(x) - g
+            g = Fraction(x) if abs(way) <= Fraction(15, 100) else g + (1 if way > 0 else -1) * Fraction(15, 100)
+            held = [c.step(x, 1, -50, 50, 0, "trap", Fraction(3, 10)), float(np.interp(-min(td, 1.2), times, samples)),
+                    slow.step(x, *other, 0.95, 0.3), 1.0 if k // 3 * 0.3 > 2.999 else 0.0, float(g)]
+        trace.append([k, a, u] + held)
+    golden.write("periods_by_section", program, (["ain(0,1,1)", "ain(0,1,2)"], stimulus), (list("abcdefg"), trace),
+                 "scipy's matrix exponentials against expm1", period=period)
+    project = golden.CASES / "periods_by_section" / "pcl2.toml"
+    project.write_text(project.read_text() + "\n[sim]\nsubsteps = 4\n")
+
+
+def spikes():
+    program = """
+! A mean over a window that a huge value passes: when it has left, nothing of it is left.
+CONTROL
+1 x = ain ( : 0, 1, 1 )
+2 m = mavg ( x, 7 : )
+3 n = mavg ( x, 64 : )
+END
+"""
+    stimulus, trace, samples = [], [], []
+    for k in range(200):
+        x = 1e12 if k in (20, 91) else round(0.1 * (k % 13) + 0.3, 6)
+        stimulus.append([k, x])
+        samples.append(x)
+        means = [float(sum(map(Fraction, ([samples[0]] * n + samples)[-n:])) / n) for n in (7, 64)]
+        trace.append([k] + means)
+    golden.write("mean_after_spikes", program, (["ain(0,1,1)"], stimulus), (["m", "n"], trace), "exact sums", period=0.1)
+
+
 lead_lags()
 integrals()
-slow_integral()
 delays()
 plants()
 difference_equations()
 programs()
 limiters()
+by_section()
+spikes()
+slow_in_float()

@@ -17,8 +17,8 @@ PCL2_KERNEL void pcl2_dss_init(
 
 /* out = M x + N u; 0 when an element is bad. */
 static int32_t pcl2_dss_map(
-    int32_t rows, int32_t nx, int32_t nu, const pcl2_real *m, const pcl2_real *n, const pcl2_real *x, const pcl2_real *u,
-    pcl2_real *out)
+    int32_t rows, int32_t nx, int32_t nu, const pcl2_real *m, const pcl2_real *n, const pcl2_real *x,
+    const pcl2_real *u, pcl2_real *out)
 {
     int32_t good = 1;
     for (int32_t i = 0; i < rows; i++) {

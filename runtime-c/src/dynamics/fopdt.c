@@ -128,7 +128,7 @@ PCL2_KERNEL void pcl2_sopdt_init(
     self->started = 0;
 }
 
-/* 1 - e^-a, 1 - e^-b and c = b (e^-a - e^-b)/(b - a) of a step that is a time constants tau1, b time constants tau2 long. */
+/* 1 - e^-a, 1 - e^-b and c = b (e^-a - e^-b)/(b - a) of a step that is a times tau1 and b times tau2 long. */
 static void pcl2_sopdt_step(pcl2_real a, pcl2_real b, pcl2_real *step)
 {
     const pcl2_real less = a < b ? a : b;

@@ -48,16 +48,21 @@ PCL2_KERNEL void pcl2_washout_init(struct pcl2_washout *self, pcl2_real Tw)
 
 PCL2_KERNEL void pcl2_washout_tune(struct pcl2_washout *self, pcl2_real Tw, int64_t T)
 {
-    self->a = Tw / (Tw + pcl2_seconds(T));
+    const pcl2_real h = pcl2_seconds(T);
+    self->g = h / (Tw + h);
 }
 
 PCL2_KERNEL void pcl2_washout(struct pcl2_washout *self, pcl2_real x)
 {
-    const int32_t good = !pcl2_is_bad(x);
-    const pcl2_real y = self->a * (self->y + (x - (self->seeded != 0 ? self->x1 : x)));
-    self->y = pcl2_is_bad(y) ? self->y : y;
-    self->seeded = good;
-    self->x1 = good ? x : PCL2_R(0.0);
+    const pcl2_real rise = x - (self->seeded != 0 ? self->x1 : x);
+    pcl2_real carry = self->carry;
+    const pcl2_real y = pcl2_sum(self->y, rise - self->g * (self->y + rise), &carry);
+    self->seeded = !pcl2_is_bad(x);
+    self->x1 = self->seeded ? x : PCL2_R(0.0);
+    if (!pcl2_is_bad(y)) {
+        self->y = y;
+        self->carry = carry;
+    }
 }
 
 PCL2_KERNEL void pcl2_deriv_init(struct pcl2_deriv *self, pcl2_real Td, pcl2_real N)

@@ -132,3 +132,40 @@ PCL2_KERNEL void pcl2_singen(struct pcl2_singen *self)
     self->y = self->now < 0 ? self->middle : self->middle + self->size * pcl2_math_sin(angle);
     self->now = pcl2_sources_next(self->now, self->tick, self->length);
 }
+
+PCL2_KERNEL void pcl2_sweep_init(
+    struct pcl2_sweep *self, pcl2_real amp, pcl2_real f0, pcl2_real f1, pcl2_real length, pcl2_real bias, pcl2_real td)
+{
+    (void)amp;
+    (void)f0;
+    (void)f1;
+    (void)length;
+    (void)bias;
+    self->now = -pcl2_set_time(td, self->tick);
+}
+
+PCL2_KERNEL void pcl2_sweep_tune(
+    struct pcl2_sweep *self, pcl2_real amp, pcl2_real f0, pcl2_real f1, pcl2_real length, pcl2_real bias, int64_t T)
+{
+    self->size = amp;
+    self->middle = bias;
+    self->first = f0;
+    self->slope = (f1 - f0) / length / 2;
+    self->tick = T;
+    self->span = pcl2_sources_length(length, T);
+}
+
+/* What is left of the turns when the whole ones are gone; of turns beyond counting nothing. */
+static pcl2_real pcl2_sweep_part(pcl2_real turns)
+{
+    return turns < PCL2_R(1e9) ? turns - (pcl2_real)(int32_t)turns : PCL2_R(0.0);
+}
+
+PCL2_KERNEL void pcl2_sweep(struct pcl2_sweep *self)
+{
+    const pcl2_real turn = PCL2_R(6.283185307179586476925);
+    const pcl2_real time = pcl2_seconds(self->now > 0 ? self->now : 0);
+    const pcl2_real part = pcl2_sweep_part(time * (self->first + self->slope * time));
+    self->y = self->middle + self->size * pcl2_math_sin(turn * part);
+    self->now = pcl2_sources_next(self->now, self->tick, self->span);
+}
