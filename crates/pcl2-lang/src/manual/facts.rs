@@ -161,12 +161,13 @@ fn instance(decl: &Decl) -> Option<String> {
     let grows = decl.memory.iter().chain(&decl.tuned).any(|field| !field.ty.is_scalar())
         || decl.outputs.iter().any(|output| !kernel::in_instance(output) && !output.inout);
     let bytes = |width: Width| members.iter().map(|member| member_bytes(decl, *member, width)).sum::<usize>();
+    let arrays = if grows { " and its arrays" } else { "" };
     Some(match (members.is_empty(), grows) {
-        (true, false) => "None.".to_owned(),
-        (true, true) => "Its outputs.".to_owned(),
-        (false, false) => format!("{} bytes an instance, {} as f32.", bytes(Width::F64), bytes(Width::F32)),
-        (false, true) => {
-            format!("{} bytes an instance, {} as f32, and its arrays.", bytes(Width::F64), bytes(Width::F32))
+        (true, false) => "None beside its parameters.".to_owned(),
+        (true, true) => "Its outputs, beside its parameters.".to_owned(),
+        (false, _) => {
+            let (wide, narrow) = (bytes(Width::F64), bytes(Width::F32));
+            format!("{wide} bytes an instance, {narrow} as f32, beside its parameters{arrays}.")
         }
     })
 }
