@@ -13,6 +13,8 @@ pub type Piece = [(i32, i32); 2];
 pub struct Diagram {
     /// The picture's size.
     pub size: (i32, i32),
+    /// The sections' frames.
+    pub frames: Vec<Area>,
     /// The blocks' boxes.
     pub boxes: Vec<Area>,
     /// Marks of delays, and operator cells.
@@ -41,6 +43,7 @@ pub fn diagram(svg: &str) -> Diagram {
         let classes: Vec<&str> = node.attribute("class").unwrap_or_default().split(' ').collect();
         let data = node.attribute("d").unwrap_or_default();
         match classes[0] {
+            "frame" => found.frames.push(area(node)),
             "box" => found.boxes.push(area(node)),
             "delay" | "cell" => {
                 found.delays += usize::from(classes[0] == "delay");
@@ -119,6 +122,14 @@ pub fn runs_through(piece: &Piece, area: &Area) -> bool {
         && area[1] < span[3].max(span[1] + 1)
         && (span[0] > area[0] || span[2] > span[0])
         && (span[1] > area[1] || span[3] > span[1])
+}
+
+/// Whether a piece runs along an edge of an area.
+pub fn runs_along(piece: &Piece, area: &Area) -> bool {
+    let span = span(piece);
+    let upright = span[0] == span[2] && (span[0] == area[0] || span[0] == area[2]);
+    let level = span[1] == span[3] && (span[1] == area[1] || span[1] == area[3]);
+    (upright && span[1] < area[3] && area[1] < span[3]) || (level && span[0] < area[2] && area[0] < span[2])
 }
 
 /// Whether a point lies on a piece.

@@ -1,7 +1,8 @@
 //! `pcl2 graph`: everything is there, nothing lies on anything else, the same program gives the same picture.
 
+use pcl2_tests::cases;
 use pcl2_tests::compilers::{check, folder};
-use pcl2_tests::picture::{Diagram, Piece, diagram, lies_on, overlap, runs_through, touch};
+use pcl2_tests::picture::{Diagram, Piece, diagram, lies_on, overlap, runs_along, runs_through, touch};
 use pcl2_tests::{none, pcl2, root, run};
 use std::fmt::Write;
 use std::fs;
@@ -71,8 +72,21 @@ fn faults(name: &str, drawn: &Diagram) -> Vec<String> {
         let outside = a[0] < 0 || a[1] < 0 || a[2] > drawn.size.0 || a[3] > drawn.size.1;
         faults.extend(outside.then(|| format!("{name}: {a:?} lies outside")));
     }
+    for (i, frame) in drawn.frames.iter().enumerate() {
+        let others = drawn.frames[i + 1..].iter().filter(|other| overlap(frame, other));
+        faults.extend(others.map(|other| format!("{name}: {frame:?} lies on {other:?}")));
+    }
+    for area in &drawn.boxes {
+        let frames = drawn.frames.iter().filter(|frame| overlap(area, frame)).collect::<Vec<_>>();
+        let inside =
+            |frame: &[i32; 4]| frame[0] < area[0] && frame[1] < area[1] && area[2] < frame[2] && area[3] < frame[3];
+        let framed = frames.len() == 1 && inside(frames[0]);
+        faults.extend((!framed).then(|| format!("{name}: {area:?} lies in {frames:?}")));
+    }
     for (i, (net, pieces)) in drawn.wires.iter().enumerate() {
         for piece in pieces {
+            let along = drawn.frames.iter().filter(|frame| runs_along(piece, frame));
+            faults.extend(along.map(|frame| format!("{name}: {net} runs along {frame:?} by {piece:?}")));
             let through = solid().filter(|area| runs_through(piece, area));
             faults.extend(through.map(|area| format!("{name}: {net} runs through {area:?} by {piece:?}")));
         }
@@ -145,6 +159,21 @@ fn examples_are_drawn_without_faults() {
         let drawn = check(pcl2().arg("graph").arg(root().join("examples").join(path)).args(["-o", "-"]));
         complaints.extend(faults(path, &diagram(&drawn)));
     }
+    none(&complaints);
+}
+
+#[test]
+fn golden_cases_are_drawn_without_faults() {
+    let mut complaints = Vec::new();
+    let mut drawn = 0;
+    for case in cases::all() {
+        let output = run(case.command("graph").args(["-o", "-"]));
+        if output.status.success() {
+            complaints.extend(faults(&case.name, &diagram(&String::from_utf8_lossy(&output.stdout))));
+            drawn += 1;
+        }
+    }
+    assert!(drawn > 40, "only {drawn} pictures");
     none(&complaints);
 }
 

@@ -7,6 +7,9 @@ use pcl2_lang::program::{Block, BlockId, ImageWord, Program, SectionKind, Signal
 use pcl2_lang::types::Type;
 use std::collections::BTreeSet;
 
+/// So many open ports are shown at the end of a list.
+const OPEN: usize = 3;
+
 /// A program as nodes and nets.
 pub(crate) struct Netlist {
     /// One for each block, in order of execution.
@@ -176,11 +179,22 @@ impl Reader<'_> {
             };
             self.port(index, label, source);
         }
+        self.shorten(index);
         for (output, signal) in block.outputs.iter().enumerate() {
             let declared = output_decl(decl, &block.sizes, output).map(|declared| &decl.outputs[declared]);
             if let Some(declared) = declared.filter(|declared| declared.inout) {
                 self.changed(index, *signal, &declared.name);
             }
+        }
+    }
+
+    /// Many open ports in a row at the end of a list are left out: they say nothing.
+    fn shorten(&mut self, block: usize) {
+        let pins = &mut self.list.nodes[block].pins;
+        let is_open = |pin: &&Pin| matches!(pin.note, Note::Constant(_));
+        let open = pins.iter().rev().take_while(is_open).count();
+        if open > OPEN {
+            pins.truncate(pins.len() - open);
         }
     }
 
@@ -206,9 +220,11 @@ impl Reader<'_> {
             Source::Signal(signal) | Source::Copied(signal) => (*signal, String::new()),
             Source::Element(signal, element) => (*signal, text::suffix(unit.signal(*signal).ty, *element)),
             Source::Constant(value) => {
-                // Open it means "following": nothing to look at.
+                // An open return port means "following": nothing to look at.
                 if label.name != RETURN_PORT {
-                    self.pin(block, Side::Left, label.name.clone(), Note::Constant(text::value(value, label.names)));
+                    let constant = Note::Constant(text::value(value, label.names));
+                    let note = if text::is_bad(value) { Note::Nothing } else { constant };
+                    self.pin(block, Side::Left, label.name.clone(), note);
                 }
                 return;
             }

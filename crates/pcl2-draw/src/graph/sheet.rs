@@ -107,16 +107,13 @@ pub(crate) fn draw(list: &Netlist, sheet: &Sheet, titles: Option<&[i32]>) -> Dra
     order::arrange(&mut grid);
     let (tops, frames, height) = stack(&grid, &place::tops(&grid), titles.is_some());
     let routed: Vec<route::Routed> = grid.channels.iter().map(|bundles| route::channel(bundles, &tops)).collect();
-    let columns = columns(list, sheet, &grid, &routed);
+    let columns = columns(list, sheet, &grid, &routed, titles.unwrap_or(&[]));
     let last = columns.last().map_or(0, |column| column.right());
     let nodes = nodes(sheet, &grid, &tops, &columns);
     let frames = frames.into_iter().map(|(section, y, height)| {
-        let own = grid.items.iter().filter(|item| item.lane == section * 2 && matches!(item.kind, Kind::Node(_)));
-        let (first, last) = own.fold((usize::MAX, 0), |(a, b), item| (a.min(item.layer), b.max(item.layer)));
+        let (first, last) = grid.span(section * 2);
         let x = columns[first].x - PAD / 2;
-        let width = columns[last].right() + PAD / 2 - x;
-        let title = titles.and_then(|titles| titles.get(section)).copied().unwrap_or(0);
-        Frame { section, x, y, width: width.max(title), height }
+        Frame { section, x, y, width: columns[last].right() + PAD / 2 - x, height }
     });
     let frames = frames.collect();
     let wires = wires(list, sheet, &grid, &tops, &columns, &routed);
@@ -200,6 +197,13 @@ impl Grid {
         self.items[item].joints.push(Joint { channel, bundle, left, offset });
     }
 
+    /// The first and the last layer of a lane's blocks.
+    fn span(&self, lane: usize) -> (usize, usize) {
+        let own = self.items.iter().filter(|item| item.lane == lane && matches!(item.kind, Kind::Node(_)));
+        let layers = own.map(|item| item.layer);
+        (layers.clone().min().unwrap_or(0), layers.max().unwrap_or(0))
+    }
+
     fn sort_by_lane(&mut self) {
         for layer in &mut self.layers {
             layer.sort_by_key(|item| self.items[*item].lane);
@@ -260,8 +264,10 @@ fn channel_width(bundles: &[Bundle], routed: &route::Routed) -> i32 {
     if bundles.is_empty() { PAD } else { PAD + 2 * MARGIN + (routed.width() - 1).max(0) * GRID }
 }
 
-fn columns(list: &Netlist, sheet: &Sheet, grid: &Grid, routed: &[route::Routed]) -> Vec<Column> {
-    let mut columns = Vec::new();
+/// Columns from left to right; the last one of a lane makes room for the lane's title.
+fn columns(list: &Netlist, sheet: &Sheet, grid: &Grid, routed: &[route::Routed], titles: &[i32]) -> Vec<Column> {
+    let spans: Vec<(usize, usize)> = (0..titles.len()).map(|section| grid.span(section * 2)).collect();
+    let mut columns: Vec<Column> = Vec::new();
     let mut x = 0;
     for (layer, items) in grid.layers.iter().enumerate() {
         x += channel_width(&grid.channels[layer], &routed[layer]);
@@ -273,6 +279,10 @@ fn columns(list: &Netlist, sheet: &Sheet, grid: &Grid, routed: &[route::Routed])
                 column.width = column.width.max(shape::width(list, node));
                 column.after = column.after.max(shape::after(list, node));
             }
+        }
+        for ((first, _), title) in spans.iter().zip(titles).filter(|((_, last), _)| *last == layer) {
+            let left = columns.get(*first).map_or(column.x, |first| first.x);
+            column.after += (title - PAD - (column.right() - left)).max(0);
         }
         x = column.right();
         columns.push(column);

@@ -57,6 +57,15 @@ pub(crate) fn suffix(ty: Type, element: u32) -> String {
     }
 }
 
+/// Whether a port's default stands for "nothing there".
+pub(crate) fn is_bad(value: &Value) -> bool {
+    match value {
+        Value::Real(real) => real.wide.is_nan(),
+        Value::Reals(values) => values.iter().all(|real| real.wide.is_nan()),
+        Value::Int(_) | Value::Ints(_) | Value::Text(_) => false,
+    }
+}
+
 /// A value in a few characters; an int by its name.
 pub(crate) fn value(value: &Value, names: &[String]) -> String {
     match value {
@@ -82,6 +91,9 @@ fn list(values: impl Iterator<Item = String> + Clone, count: usize, limit: usize
 
 /// Six digits are enough to look at.
 pub(crate) fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "bad".to_owned();
+    }
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     let size = rounded.abs();
     if rounded != 0.0 && !(1e-4..1e7).contains(&size) { format!("{rounded:e}") } else { format!("{rounded}") }

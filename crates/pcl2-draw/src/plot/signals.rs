@@ -42,8 +42,9 @@ pub fn signals<'p>(program: &Program, points: impl IntoIterator<Item = (&'p Poin
     let loops = loops(program);
     let signal = |(point, label): (&Point, String)| {
         let role = match point.place {
-            Place::Signal(id) => role(&loops, id),
-            Place::Param(..) | Place::Cell(_) | Place::Image(_) | Place::Memory(_) => Role::None,
+            Place::Signal(id) => role(&loops, &Source::Signal(id)),
+            Place::Cell(id) => role(&loops, &Source::Cell(id)),
+            Place::Param(..) | Place::Image(_) | Place::Memory(_) => Role::None,
         };
         let whole = point.ty.scalar == Scalar::Int && !point.time;
         let family = (!point.ty.is_scalar()).then(|| point.name.clone());
@@ -55,7 +56,8 @@ pub fn signals<'p>(program: &Program, points: impl IntoIterator<Item = (&'p Poin
 /// A controller's signals.
 struct Loop {
     number: usize,
-    set_point: SignalId,
+    /// A signal, or the operator's cell.
+    set_point: Source,
     measured: SignalId,
     output: Option<SignalId>,
 }
@@ -63,7 +65,8 @@ struct Loop {
 fn loops(program: &Program) -> Vec<Loop> {
     let mut loops: Vec<Loop> = Vec::new();
     for block in &program.main().blocks {
-        let [Some(set_point), Some(measured)] = [LETTERS[0], LETTERS[1]].map(|letter| port(program, block, letter))
+        let [Some(set_point), Some(Source::Signal(measured))] =
+            [LETTERS[0], LETTERS[1]].map(|letter| port(program, block, letter))
         else {
             continue;
         };
@@ -77,25 +80,29 @@ fn loops(program: &Program) -> Vec<Loop> {
     loops
 }
 
-/// The scalar signal at a port of this name.
-fn port(program: &Program, block: &Block, name: &str) -> Option<SignalId> {
+/// The scalar signal or the cell at a port of this name.
+fn port(program: &Program, block: &Block, name: &str) -> Option<Source> {
     let decl = program.decl(block.decl);
     if decl.ports().any(|port| port.group.is_some()) {
         return None;
     }
     let index = decl.ports().position(|port| port.name == name)?;
-    match block.ports.get(index) {
-        Some(Source::Signal(signal)) if program.main().signal(*signal).ty.is_scalar() => Some(*signal),
-        _ => None,
-    }
+    let source = block.ports.get(index)?;
+    let drawn = match source {
+        Source::Signal(signal) => program.main().signal(*signal).ty.is_scalar(),
+        Source::Cell(cell) => program.main().cells[cell.0 as usize].ty.is_scalar(),
+        Source::Copied(_) | Source::Element(..) | Source::Constant(_) => false,
+    };
+    drawn.then(|| source.clone())
 }
 
-fn role(loops: &[Loop], id: SignalId) -> Role {
-    if let Some(own) = loops.iter().find(|own| own.measured == id) {
+fn role(loops: &[Loop], source: &Source) -> Role {
+    let is = |signal: SignalId| *source == Source::Signal(signal);
+    if let Some(own) = loops.iter().find(|own| is(own.measured)) {
         return Role::Measured(own.number);
     }
-    if let Some(own) = loops.iter().find(|own| own.set_point == id) {
+    if let Some(own) = loops.iter().find(|own| own.set_point == *source) {
         return Role::SetPoint(own.number);
     }
-    if loops.iter().any(|own| own.output == Some(id)) { Role::Output } else { Role::None }
+    if loops.iter().any(|own| own.output.is_some_and(is)) { Role::Output } else { Role::None }
 }
