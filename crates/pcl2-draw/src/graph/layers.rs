@@ -4,8 +4,8 @@ use super::netlist::Netlist;
 
 /// The layer of each of these nodes, which stand in order of execution. Wires of other nodes, return wires and
 /// reads of the previous scan's value do not count, so what is left has no loops.
-pub(crate) fn assign(list: &Netlist, nodes: &[usize]) -> Vec<usize> {
-    let edges = edges(list, nodes);
+pub(crate) fn assign(list: &Netlist, nodes: &[usize], nets: &[usize]) -> Vec<usize> {
+    let edges = edges(list, nodes, nets);
     let mut layers = vec![0; nodes.len()];
     for (node, readers) in edges.iter().enumerate() {
         for reader in readers {
@@ -28,13 +28,13 @@ pub(crate) fn assign(list: &Netlist, nodes: &[usize]) -> Vec<usize> {
 }
 
 /// For each node its readers, both as places in the list of nodes.
-fn edges(list: &Netlist, nodes: &[usize]) -> Vec<Vec<usize>> {
+fn edges(list: &Netlist, nodes: &[usize], nets: &[usize]) -> Vec<Vec<usize>> {
     let mut edges = vec![Vec::new(); nodes.len()];
-    for (i, net) in list.nets.iter().enumerate().filter(|(_, net)| !net.is_return) {
-        let Ok(source) = nodes.binary_search(&net.source.node) else {
+    for net in nets.iter().filter(|net| !list.nets[**net].is_return) {
+        let Ok(source) = nodes.binary_search(&list.nets[*net].source.node) else {
             continue;
         };
-        for sink in list.wired(i).filter(|sink| !list.pin(*sink).delayed) {
+        for sink in list.wired(*net).filter(|sink| !list.pin(*sink).delayed) {
             if let Ok(reader) = nodes.binary_search(&sink.node) {
                 if reader > source {
                     edges[source].push(reader);

@@ -119,23 +119,70 @@ pub(crate) fn channel(bundles: &[Bundle], tops: &[i32]) -> Routed {
 fn order(mut waiting: Vec<Trunk>) -> (Vec<Trunk>, Vec<(usize, i32)>) {
     let mut ordered: Vec<Trunk> = Vec::new();
     let mut cuts: Vec<(usize, i32)> = Vec::new();
+    let mut table = Table::new(&waiting);
     while !waiting.is_empty() {
-        let free = |i: &usize| !waiting.iter().any(|other| other.precedes(&waiting[*i]));
-        let free: Vec<usize> = (0..waiting.len()).filter(free).collect();
-        let cost = |i: &usize| {
-            let others = waiting.iter().filter(|other| other.bundle != waiting[*i].bundle);
-            let costs = others.map(|other| {
-                let (first, last) = (waiting[*i].crossings(other), other.crossings(&waiting[*i]));
-                i64::try_from(first).unwrap_or(0) - i64::try_from(last).unwrap_or(0)
-            });
-            costs.sum::<i64>()
-        };
-        match free.into_iter().min_by_key(cost) {
-            Some(next) => ordered.push(waiting.remove(next)),
-            None => cut(&mut waiting, &mut cuts),
+        match table.next() {
+            Some(next) => {
+                ordered.push(waiting.remove(next));
+                table.remove(next);
+            }
+            None => {
+                cut(&mut waiting, &mut cuts);
+                table = Table::new(&waiting);
+            }
         }
     }
     (ordered, cuts)
+}
+
+/// What putting one trunk left of another costs, for all that wait.
+struct Table {
+    /// How many more crossings if the first index goes before the second.
+    costs: Vec<Vec<i64>>,
+    /// Whether the first index must go before the second.
+    precedes: Vec<Vec<bool>>,
+    /// Sums of `costs` over the second index.
+    sums: Vec<i64>,
+    /// How many must go before.
+    blockers: Vec<usize>,
+}
+
+impl Table {
+    fn new(trunks: &[Trunk]) -> Table {
+        let count = |crossings: usize| i64::try_from(crossings).unwrap_or(0);
+        let cost = |a: &Trunk, b: &Trunk| match a.bundle == b.bundle {
+            true => 0,
+            false => count(a.crossings(b)) - count(b.crossings(a)),
+        };
+        let costs: Vec<Vec<i64>> = trunks.iter().map(|a| trunks.iter().map(|b| cost(a, b)).collect()).collect();
+        let precedes: Vec<Vec<bool>> = trunks.iter().map(|a| trunks.iter().map(|b| a.precedes(b)).collect()).collect();
+        let sums = costs.iter().map(|row| row.iter().sum()).collect();
+        let blockers = (0..trunks.len()).map(|i| precedes.iter().filter(|row| row[i]).count()).collect();
+        Table { costs, precedes, sums, blockers }
+    }
+
+    /// The trunk that nothing must precede and that costs least, the first of equals.
+    fn next(&self) -> Option<usize> {
+        let free = (0..self.sums.len()).filter(|i| self.blockers[*i] == 0);
+        free.min_by_key(|i| self.sums[*i])
+    }
+
+    fn remove(&mut self, gone: usize) {
+        let precedes = self.precedes.remove(gone);
+        self.costs.remove(gone);
+        self.sums.remove(gone);
+        self.blockers.remove(gone);
+        for row in &mut self.precedes {
+            row.remove(gone);
+        }
+        for (sum, row) in self.sums.iter_mut().zip(&mut self.costs) {
+            *sum -= row.remove(gone);
+        }
+        let others = precedes.into_iter().enumerate().filter(|(i, _)| *i != gone).map(|(_, precedes)| precedes);
+        for (blockers, precedes) in self.blockers.iter_mut().zip(others) {
+            *blockers -= usize::from(precedes);
+        }
+    }
 }
 
 /// Cuts the first trunk that is not cut yet; its left part then waits for nobody.
