@@ -152,6 +152,21 @@ fn a_program_of_a_thousand_blocks_is_drawn() {
     assert!(svg.len() < 2_000_000, "{} bytes", svg.len());
 }
 
+/// All hang together: cut into sheets, it is drawn in no time.
+#[test]
+fn a_tangle_is_cut_into_sheets() {
+    let mut dice = Dice(3);
+    let mut text = "CONTROL\n".to_owned();
+    for i in 0..1000 {
+        let (a, b) = (dice.below(1000), dice.below(1000));
+        let _ = writeln!(text, "{} v{i} = sumII ( 1, v{a}, v{b}, 2 : 1., 1. )", i + 1);
+    }
+    text.push_str("END\n");
+    let drawn = diagram(&draw(&text, &[]));
+    none(&faults("tangle", &drawn));
+    assert_eq!((drawn.boxes.len(), drawn.ports.len()), (1000, 2000));
+}
+
 #[test]
 fn examples_are_drawn_without_faults() {
     let mut complaints = Vec::new();

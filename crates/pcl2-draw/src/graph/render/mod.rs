@@ -254,8 +254,9 @@ fn put_wire(text: &mut String, list: &Netlist, wire: &Wire, (x, y): (i32, i32)) 
         let _ = if from.1 == to.1 { write!(text, "H{}", to.0 + x) } else { write!(text, "V{}", to.1 + y) };
     }
     text.push_str("'/>");
+    let radius = if kind.ends_with("wide") { "3.8" } else { "2.6" };
     for dot in &wire.dots {
-        let _ = write!(text, "<circle class='dot{kind}' cx='{}' cy='{}' r='2.6'/>", dot.0 + x, dot.1 + y);
+        let _ = write!(text, "<circle class='dot{kind}' cx='{}' cy='{}' r='{radius}'/>", dot.0 + x, dot.1 + y);
     }
     text.push_str("</g>\n");
 }
