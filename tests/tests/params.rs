@@ -173,7 +173,8 @@ fn saved_values_are_the_programs() {
         let values: String = before.lines().map(|line| format!("{}\n", larger(line))).collect();
         fs::write(place.join("values.txt"), values).unwrap();
         let (code, _, err) = with(&["params", source, "--from", "values.txt", "--save", "--period", "0.1"]);
-        if err.contains("must be") || err.contains("(tf)") || err.contains("(trfun)") {
+        // The ranges and checks of some codes refuse the larger values.
+        if err.contains("error: block ") {
             continue;
         }
         let all = err.contains("saved ") && code == 0;
