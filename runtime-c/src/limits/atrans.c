@@ -41,7 +41,8 @@ PCL2_KERNEL void pcl2_atrans(struct pcl2_atrans *self, pcl2_real a, pcl2_real b,
     const pcl2_real x = source == ATRANS_B ? b : a;
     if (source == self->source) {
         self->left = pcl2_atrans_later(self->left, self->tick, self->total);
-        self->y = self->left > 0 ? x + self->offset * ((pcl2_real)self->left * self->scale) : x;
+        const pcl2_real y = x + self->offset * ((pcl2_real)self->left * self->scale);
+        self->y = self->left > 0 && !pcl2_is_bad(y) ? y : x;
         return;
     }
     const pcl2_real offset = self->y - x;
