@@ -224,7 +224,7 @@ def transfers():
     k = np.arange(steps)
     a = np.round(20.0 + 5.0 * np.sin(0.3 * k), 3)
     b = np.round(70.0 - 0.4 * k, 3)
-    b[34:38] = NAN
+    b[20:24] = NAN
     s = ((k // 15) % 2).astype(int)
     i = (k // 7 - 1).astype(int)
     # Which signal is taken in each scan, and when it was taken first: the ramp of 8 periods starts at the old output.
@@ -238,6 +238,17 @@ def transfers():
             since = n - 8
         taken = want
         y.append(new + offset * max(0.0, 1.0 - (n - since) / 8))
+    redundant, who, ramp, last = [], [], (0, 0.0), None
+    for n in range(steps):
+        asked = "b" if s[n] else "a"
+        use = asked if n == 0 or s[n] != s[n - 1] else last
+        use = "a" if use == "b" and math.isnan(b[n]) else use
+        new = b[n] if use == "b" else a[n]
+        if last not in (None, use):
+            ramp = (n, redundant[-1] - new)
+        last = use
+        redundant.append(new + ramp[1] * max(0.0, 1.0 - (n - ramp[0]) / 4))
+        who.append(int(use == "b"))
     chosen = np.clip(i, 1, 3)
     three = np.stack([a, b, -a], axis=1)
     length = 0
@@ -253,6 +264,9 @@ def transfers():
         "D.y3": [float(a[n]) if chosen[n] == 3 else -9.0 for n in range(steps)],
         "U": [float(a[n]) if used[n] else float(b[n]) for n in range(steps)],
         "U.used": used,
+        "R": redundant,
+        "R.st": who,
+        "R.dv": [int(abs(v - w) > 45.0) for v, w in zip(a, b)],
     }
     write("limits_transfers", "Bumpless transfer, multiplexers, substitution.", """
 1 a = ain ( : 0, 1, 1 )
@@ -264,6 +278,7 @@ def transfers():
 7 m = mux ( a, b, c, i, 3 : )
 8 D = demux ( a, i, 3 : -9. )
 11 U = subst ( b, a : 0.3 )
+13 R = redai ( a, b, s : dev = 45., trate = 0.4 )
 """, {"ain(0,1,1)": a.tolist(), "ain(0,1,2)": b.tolist(), "s.value": s.tolist(), "i.value": i.tolist()}, columns,
           "sums of decimals")
 
