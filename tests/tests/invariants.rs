@@ -80,8 +80,11 @@ fn dependencies_point_down() {
 // 1. No block is known to a crate.
 
 /// Words that the compiler has for itself and that are a function code's name too, each with the reason.
-const OWN_WORDS: [(&str, &str); 2] =
-    [("add", "the suite has rustup add components"), ("hold", "a value of `bad` in [io]")];
+const OWN_WORDS: [(&str, &str); 3] = [
+    ("add", "the suite has rustup add components"),
+    ("eq", "short for equation in a declaration's comment"),
+    ("hold", "a value of `bad` in [io]"),
+];
 
 #[test]
 fn no_crate_knows_a_function_code() {
