@@ -46,7 +46,7 @@ pub(crate) fn rows(cx: &Context<'_>, statics: &mut Statics, mut next: usize, ker
         rows: Rows::default(),
         table: String::new(),
         marks: String::new(),
-        open_mark: None,
+        open_marks: Vec::new(),
         codes: String::new(),
         code_index: FxHashMap::default(),
     };
@@ -120,9 +120,9 @@ struct Builder<'c, 'a> {
     recent: FxHashMap<u32, Recent>,
     rows: Rows,
     table: String,
-    /// The marks, and the index of the first parameter of one whose cold parameters are still to come.
+    /// The marks, and the index of the first parameter of each whose cold parameters are still to come.
     marks: String,
-    open_mark: Option<usize>,
+    open_marks: Vec<usize>,
     /// The rows of the table of codes, and the index of each.
     codes: String,
     code_index: FxHashMap<String, usize>,
@@ -138,7 +138,7 @@ struct Recent {
 impl Builder<'_, '_> {
     /// Writes the tables behind the adapters.
     fn tables(&mut self) {
-        self.close_mark(None);
+        self.close_marks(None);
         let (name, count, out) = (&self.cx.name, self.rows.count, &mut self.rows.text);
         let codes = self.code_index.len();
         let _ = writeln!(
@@ -260,24 +260,23 @@ impl Builder<'_, '_> {
     /// Counts a row, and writes what stands before every [`MARK`]-th.
     fn mark(&mut self, first: usize, cold: Option<&str>) {
         if self.rows.count % MARK == 0 {
-            self.close_mark(None);
-            self.open_mark = Some(first);
+            self.open_marks.push(first);
         }
         if cold.is_some() {
-            self.close_mark(cold);
+            self.close_marks(cold);
         }
         self.rows.count += 1;
     }
 
-    /// A mark says where the next cold parameters are: those of the first row behind it that has some.
-    fn close_mark(&mut self, cold: Option<&str>) {
-        let Some(first) = self.open_mark.take() else {
-            return;
-        };
-        let _ = match cold {
-            Some(cold) => writeln!(self.marks, "    {{{first}, offsetof({}, cold.{cold})}},", self.cx.name),
-            None => writeln!(self.marks, "    {{{first}, 0}},"),
-        };
+    /// A mark says where the next cold parameters are: those of the first row behind it that has some, be it behind
+    /// later marks.
+    fn close_marks(&mut self, cold: Option<&str>) {
+        for first in std::mem::take(&mut self.open_marks) {
+            let _ = match cold {
+                Some(cold) => writeln!(self.marks, "    {{{first}, offsetof({}, cold.{cold})}},", self.cx.name),
+                None => writeln!(self.marks, "    {{{first}, 0}},"),
+            };
+        }
     }
 
     /// The adapters and the `struct pcl2_code` of blocks like this one.
