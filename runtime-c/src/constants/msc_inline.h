@@ -14,4 +14,9 @@ static inline int32_t pcl2_msi(int32_t value)
     return value;
 }
 
+static inline int32_t pcl2_mss(int32_t value)
+{
+    return value;
+}
+
 #endif
