@@ -9,6 +9,7 @@
 //! 6. `params`: every parameter has its value, in its range.
 //! 7. `order`: delays are known.
 //! 8. `returns`: return wires that are missing have been named.
+//! 9. `onbad`: truth values that do not say what they are for a bad signal have been named.
 //!
 //! What is wrong is reported once and marked as spoiled; nothing that depends on it is checked.
 
@@ -18,6 +19,7 @@ mod draft;
 mod files;
 mod inner;
 mod number;
+mod onbad;
 mod order;
 mod params;
 mod period;
@@ -120,6 +122,7 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     }
     let delays = order::delays(&sectioned, &scope, diagnostics);
     returns::missing(&scope, diagnostics);
+    onbad::unsaid(&sectioned, &scope, input.symbols, diagnostics);
     let program = seal::seal(input, &sectioned, scope, composites, delays);
     // Pass 5 has judged the program's own blocks; composites add theirs.
     if program.units.len() > 1 && verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {

@@ -20,8 +20,8 @@ pub(crate) fn missing(scope: &Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
             let Some(Source::Signal(signal)) = follower.sources.get(first + link) else {
                 continue;
             };
-            for writer in scope.wire(*signal).writers.iter().filter(|writer| writer.output == 0) {
-                if is_deaf(&scope.drafts[writer.block.0 as usize]) {
+            for writer in &scope.wire(*signal).writers {
+                if is_deaf(&scope.drafts[writer.block.0 as usize], writer.output) {
                     warn(scope, follower, decl, writer.block, (first, link, count), diagnostics);
                 }
             }
@@ -41,22 +41,24 @@ fn answered<'a>(draft: &Draft<'a>) -> Option<(&'a Decl, usize, usize)> {
 
 /// Whether following is more than passing on: a controller or a selector decides, and so does what waits downstream.
 fn judges(draft: &Draft<'_>, decl: &Decl) -> bool {
-    matches!(decl.bad, Some(BadRule::Manual | BadRule::Select)) || return_source(draft).is_some_and(is_wired)
+    matches!(decl.bad, Some(BadRule::Manual | BadRule::Select)) || return_source(draft, 0).is_some_and(is_wired)
 }
 
-/// Whether a block has a return port, and nothing is wired to it.
-fn is_deaf(draft: &Draft<'_>) -> bool {
-    return_source(draft).is_some_and(|source| !is_wired(source))
+/// Whether a block has a return port for this output, and nothing is wired to it.
+fn is_deaf(draft: &Draft<'_>, output: u32) -> bool {
+    return_source(draft, output).is_some_and(|source| !is_wired(source))
 }
 
 fn is_wired(source: &Source) -> bool {
     !matches!(source, Source::Constant(_))
 }
 
-fn return_source<'d>(draft: &'d Draft<'_>) -> Option<&'d Source> {
+/// What is wired to the return port of an output: `back`, or `back1`, `back2`, .. of a block that drives several.
+fn return_source<'d>(draft: &'d Draft<'_>, output: u32) -> Option<&'d Source> {
     let decl = draft.decl?;
     let sizes = draft.known_sizes()?;
-    let index = decl.ports().position(|port| port.name == RETURN_PORT)?;
+    let own = format!("{RETURN_PORT}{}", output + 1);
+    let index = decl.ports().position(|port| (output == 0 && port.name == RETURN_PORT) || port.name == own)?;
     let before: Option<usize> = decl.ports().take(index).map(|port| kernel::count(port.group.as_ref(), &sizes)).sum();
     draft.sources.get(before?)
 }

@@ -95,6 +95,11 @@ pub struct Item {
 }
 
 impl Item {
+    /// Whether nothing stands in it.
+    pub fn is_empty(&self) -> bool {
+        self.value == Operand::Empty
+    }
+
     /// `K = ..`
     pub fn label(&self) -> Option<Name> {
         self.label.as_deref().copied()

@@ -114,6 +114,8 @@ pub const PLANT_LIST: Code = error("P0303");
 pub const BOTH_SIDES: Code = error("P0304");
 /// A block drives another that hands back what it follows, and does not listen.
 pub const MISSING_RETURN: Code = warning("P0305");
+/// A truth value made of a real reaches an output and does not say what it is when the real is bad.
+pub const ON_BAD: Code = warning("P0306");
 
 // P05xx: declarations, configuration and target.
 
