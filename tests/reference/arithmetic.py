@@ -95,6 +95,40 @@ END
                  single=(1e-5, "differences of numbers near each other in floats"))
 
 
+def lines():
+    """scale: the rising and the falling line by numpy.interp, in both directions."""
+    program = """
+! A falling line that is clipped and a rising one that is not, with what comes from downstream.
+INITIALIZE
+1 back = setvec ( 2 : 0., 0. )
+CONTROL
+2 x = msc ( : 0. )
+3 value = msc ( : 0. )
+4 state = msc ( : 0. )
+5 back = ftov ( 2, value, 1 : )
+6 back = ftov ( 2, state, 2 : )
+7 S = scale ( x, back = back : 4., 20., 100., 0., )
+8 U = scale ( x, back = back : 4., 20., -50., 150., off )
+END
+"""
+    turned = {0: 0, 1: 2, 2: 1, 3: 3}
+    stimulus, trace = [], []
+    for k, (x, value, state) in enumerate([(8, 0, 0), (2, 0, 0), (25, 9, 0), (12, 75, 1), (12, 40, 2), (12, 60, 3), (20, 5, 0)]):
+        falling = float(np.interp(x, [4, 20], [100, 0]))
+        rising = (x - 4) / 16 * 200 - 50
+        if state:
+            own = [float(np.interp(value, [0, 100], [20, 4])), turned[state]]
+            other = [float(np.interp(value, [-50, 150], [4, 20])), state]
+        else:
+            own = [min(max(x, 4), 20), 1 if x > 20 else 2 if x < 4 else 0]
+            other = [x, 0]
+        stimulus.append([k, float(x), float(value), float(state)])
+        trace.append([k, falling] + [float(v) for v in own] + [rising] + [float(v) for v in other])
+    header = ["S", "S.bk[1]", "S.bk[2]", "U", "U.bk[1]", "U.bk[2]"]
+    golden.write("arithmetic_lines", program, (["x.value", "value.value", "state.value"], stimulus), (header, trace),
+                 "another order of the operations", relative=1e-12, absolute=1e-12, period=0.1)
+
+
 # Resistance of a Pt100 in ohm, IEC 60751:2008, table 1.
 POINTS = {
     -200: 18.52, -180: 27.10, -150: 39.72, -100: 60.26, -50: 80.31, -20: 92.16, -10: 96.09, 0: 100.00, 10: 103.90,
@@ -135,4 +169,5 @@ END
 
 functions()
 curves()
+lines()
 thermometers()
