@@ -24,7 +24,7 @@ fn main() -> Outcome<()> {
     println!("cargo::rerun-if-changed={}", runtime.display());
 
     let decls = catalogue()?;
-    let kernels: Vec<&Decl> = decls.iter().filter(|decl| !decl.is_composite() && has_kernel(decl, &runtime)).collect();
+    let kernels: Vec<&Decl> = decls.iter().filter(|decl| decl.has_kernel() && has_kernel(decl, &runtime)).collect();
     let sources = c_files(&runtime, &kernels)?;
     fs::write(out.join("kernels.rs"), names(&kernels))?;
     for width in WIDTHS {

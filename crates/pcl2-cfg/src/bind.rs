@@ -2,6 +2,7 @@
 
 use crate::Input;
 use crate::draft::{Draft, Scope};
+use crate::formula;
 use pcl2_lang::ast::{Item as Place, Number, Operand};
 use pcl2_lang::bounds;
 use pcl2_lang::codes;
@@ -18,6 +19,10 @@ pub(crate) fn bind<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &m
     for draft in &mut scope.drafts {
         if diagnostic::enough(diagnostics) {
             draft.spoiled = true;
+            continue;
+        }
+        if let Some(formula) = draft.statement.formula.as_deref() {
+            formula::bind(input, draft, formula, diagnostics);
             continue;
         }
         let name = input.symbols.text(draft.statement.code.symbol);

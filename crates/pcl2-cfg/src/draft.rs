@@ -1,6 +1,7 @@
 //! What is known of each block while the passes run.
 
 use crate::Input;
+use crate::formula::Parts;
 use pcl2_lang::ast::{Item, Statement};
 use pcl2_lang::decl::Decl;
 use pcl2_lang::program::{BlockId, Cell, ImageWord, Param, Role, SignalId, Source, Writer};
@@ -30,6 +31,8 @@ pub(crate) struct Draft<'a> {
     pub(crate) outputs: Vec<SignalId>,
     pub(crate) image: Option<Box<ImageWord>>,
     pub(crate) unit: Option<usize>,
+    /// Of an expression.
+    pub(crate) formula: Option<Box<Parts<'a>>>,
 }
 
 /// A signal in the making.
@@ -125,6 +128,7 @@ impl<'a> Scope<'a> {
             outputs: Vec::new(),
             image: None,
             unit: None,
+            formula: None,
         };
         Scope {
             drafts: statements.into_iter().map(draft).collect(),

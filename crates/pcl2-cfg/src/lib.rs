@@ -17,6 +17,7 @@ mod bind;
 mod composite;
 mod draft;
 mod files;
+mod formula;
 mod inner;
 mod number;
 mod onbad;

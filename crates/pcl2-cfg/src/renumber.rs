@@ -95,7 +95,11 @@ fn own_numbers(scope: &Scope<'_>, numbers: &[u32], edits: &mut Vec<Edit>) {
     }
 }
 
+/// The numbers of other blocks at a block's ports; in an expression a number is a value.
 fn references(scope: &Scope<'_>, draft: &Draft<'_>, numbers: &[u32], edits: &mut Vec<Edit>) {
+    if draft.formula.is_some() {
+        return;
+    }
     for place in draft.operands.iter().flatten() {
         let Operand::Number(Number::Int(written)) = place.value else {
             continue;

@@ -2,12 +2,14 @@
 
 use crate::composite::Composites;
 use crate::draft::{Draft, Scope, Wire};
+use crate::formula::{self, Parts};
 use crate::sections::Sectioned;
 use crate::{Input, Tunable};
 use pcl2_lang::decl::Decl;
 use pcl2_lang::program::{
     Block, DeclId, Delay, ImageId, ImageWord, Program, Section, SectionKind, Signal, Unit, UnitId,
 };
+use pcl2_lang::source::Span;
 use pcl2_lang::types::Type;
 use rustc_hash::FxHashMap;
 
@@ -53,6 +55,7 @@ pub(crate) fn seal<'a>(
 #[derive(Default)]
 struct DeclTable {
     by_name: FxHashMap<String, DeclId>,
+    expressions: FxHashMap<formula::Key, DeclId>,
     decls: Vec<Decl>,
 }
 
@@ -64,6 +67,18 @@ impl DeclTable {
         let id = DeclId(self.decls.len() as u32);
         self.by_name.insert(decl.name.clone(), id);
         self.decls.push(decl.clone());
+        id
+    }
+
+    /// Expressions that differ in their operands alone share a code.
+    fn expression(&mut self, parts: &Parts<'_>, span: Span) -> DeclId {
+        let key = parts.key(|code| self.id(code));
+        if let Some(id) = self.expressions.get(&key) {
+            return *id;
+        }
+        let id = DeclId(self.decls.len() as u32);
+        self.decls.push(parts.decl(span, &key));
+        self.expressions.insert(key, id);
         id
     }
 }
@@ -104,7 +119,10 @@ fn seal_unit(
             number: draft.number,
             tunable: in_program && choice.is_tunable(&name, draft.section),
             name,
-            decl: decls.id(decl),
+            decl: match draft.formula.as_deref() {
+                Some(parts) => decls.expression(parts, draft.statement.code.span),
+                None => decls.id(decl),
+            },
             unit: draft.unit.map(|index| order[index]),
             sizes: draft.known_sizes().unwrap_or_default(),
             ports: draft.sources,

@@ -198,6 +198,9 @@ impl<'a> Wirer<'_, 'a> {
         let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
             return;
         };
+        if draft.formula.is_some() {
+            return self.operands();
+        }
         let operands = std::mem::take(&mut self.scope.drafts[self.block].operands);
         let draft = &self.scope.drafts[self.block];
         let sizes: Vec<i32> = draft.sizes.iter().map(|size| size.unwrap_or(0)).collect();
@@ -215,6 +218,48 @@ impl<'a> Wirer<'_, 'a> {
         }
         let draft = &mut self.scope.drafts[self.block];
         (draft.sources, draft.operands) = (sources, operands);
+    }
+
+    /// What stands in an expression.
+    fn operands(&mut self) {
+        let places: &'a [Place] = self.scope.drafts[self.block].statement.inputs();
+        let mut sources = Vec::with_capacity(places.len());
+        for place in places {
+            let source = match &place.value {
+                Operand::Name(name) => self.operand(*name),
+                Operand::Element(element) => self.element(element.0, &element.1),
+                Operand::Member(member) => self.member(member.0, member.1),
+                Operand::Number(Number::Int(value)) => Some(Source::Constant(Value::Int(*value))),
+                Operand::Number(Number::Real(value)) => Some(Source::Constant(Value::Real(*value))),
+                Operand::Empty | Operand::Text(_) => None,
+            };
+            match source {
+                Some(source) => sources.push(source),
+                None => self.scope.drafts[self.block].spoiled = true,
+            }
+        }
+        self.scope.drafts[self.block].sources = sources;
+    }
+
+    /// A variable in an expression; in a composite's body also one of its constants.
+    fn operand(&mut self, name: Name) -> Option<Source> {
+        if let Some(id) = self.scope.by_name.get(name.symbol) {
+            return Some(Source::Signal(id));
+        }
+        let text = self.input.symbols.text(name.symbol);
+        if let Some((owner, sizes)) = &self.scope.owner {
+            if let Some(size) = owner.sizes.iter().position(|size| size.name == text) {
+                return sizes.get(size).map(|value| Source::Constant(Value::Int(*value)));
+            }
+            if owner.params.iter().any(|param| param.name == text) {
+                let message = format!("expected a variable in an expression, found the parameter `{text}`");
+                let help = format!("put it on a wire: `c = msc ( : {text} )`, and use c here");
+                self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, name.span, message).help(help));
+                return None;
+            }
+        }
+        self.unknown_variable(name, &[]);
+        None
     }
 
     fn source(&mut self, decl: &Decl, port: &PortDecl, index: u32, operand: Option<&Place>) -> Option<Source> {

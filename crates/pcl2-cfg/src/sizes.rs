@@ -2,6 +2,7 @@
 
 use crate::Input;
 use crate::draft::{Draft, Scope};
+use crate::formula;
 use crate::signals::{spread, writing_order};
 use pcl2_lang::ast::Operand;
 use pcl2_lang::codes;
@@ -24,8 +25,14 @@ pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &
     let mut search = Search { ready: order.into(), waiting: FxHashMap::default() };
     search.run(scope, diagnostics);
     while let (Some(i), false) = (search.first_waiting(scope), diagnostic::enough(diagnostics)) {
-        let help = "set one variable of the loop in INITIALIZE, for instance with setmat";
-        report_unknown_size(scope, i, ("a loop of blocks that wait for each other", help), diagnostics);
+        let draft = &scope.drafts[i];
+        if let Some(parts) = draft.formula.as_deref() {
+            diagnostics.push(formula::unknown_type(scope, draft, parts));
+            spoil(scope, i);
+        } else {
+            let help = "set one variable of the loop in INITIALIZE, for instance with setmat";
+            report_unknown_size(scope, i, ("a loop of blocks that wait for each other", help), diagnostics);
+        }
         search.wake(scope, i);
         search.run(scope, diagnostics);
     }
@@ -68,6 +75,10 @@ fn declare_outputs(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Di
     let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
         return spoil(scope, index);
     };
+    if draft.formula.is_some() {
+        let _ = settle_expression(scope, index, diagnostics);
+        return;
+    }
     if draft.sizes.iter().all(Option::is_some) {
         return settle_outputs(scope, index, decl, diagnostics);
     }
@@ -142,6 +153,9 @@ fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>
         spoil(scope, index);
         return None;
     };
+    if draft.formula.is_some() {
+        return settle_expression(scope, index, diagnostics);
+    }
     if draft.sizes.iter().all(Option::is_some) {
         return None;
     }
@@ -159,6 +173,25 @@ fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>
         }
         Inferred::Spoiled => {
             spoil(scope, index);
+            None
+        }
+    }
+}
+
+/// Tries to find the type of an expression. `Some`: the signal whose type is still missing.
+fn settle_expression(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) -> Option<SignalId> {
+    let draft = &scope.drafts[index];
+    match formula::infer(scope, draft, draft.formula.as_deref()?) {
+        formula::Inferred::Known(ty) => {
+            set_type(scope, index, 0, ty, diagnostics);
+            None
+        }
+        formula::Inferred::Waiting(signal) => Some(signal),
+        formula::Inferred::Spoiled => {
+            // What is wrong is said when the ports are checked.
+            if let Some(output) = scope.drafts[index].outputs.first() {
+                scope.wires[output.0 as usize].spoiled = true;
+            }
             None
         }
     }
@@ -244,13 +277,15 @@ fn take_sizes(declared: &TypeExpr, found: Type, sizes: &mut [Option<i32>]) {
     }
 }
 
-enum Found {
+/// What is known of the type at a port.
+pub(crate) enum Found {
     Type(Type),
     Later(SignalId),
     Spoiled,
 }
 
-fn source_shape(scope: &Scope<'_>, source: &Source) -> Found {
+/// The type of what is wired to a port.
+pub(crate) fn source_shape(scope: &Scope<'_>, source: &Source) -> Found {
     let of = |id: &SignalId| {
         let wire = scope.wire(*id);
         match wire.ty {
@@ -270,7 +305,8 @@ fn source_shape(scope: &Scope<'_>, source: &Source) -> Found {
     }
 }
 
-fn constant_type(value: &pcl2_lang::types::Value) -> Type {
+/// The type of a literal or default.
+pub(crate) fn constant_type(value: &pcl2_lang::types::Value) -> Type {
     use pcl2_lang::types::{Scalar, Value};
     match value {
         Value::Int(_) | Value::Text(_) => Type::INT,
@@ -379,6 +415,9 @@ fn check_ports<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagn
     let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
         return;
     };
+    if draft.formula.is_some() {
+        return formula::check(input, scope, index, diagnostics);
+    }
     let Some(sizes) = draft.known_sizes() else {
         return;
     };
@@ -447,7 +486,7 @@ fn fill(scope: &mut Scope<'_>, source: &Source, (index, port): (usize, usize), v
 }
 
 /// The flat place of `a[1]` or `m[1,2]`.
-fn element(
+pub(crate) fn element(
     scope: &Scope<'_>,
     id: SignalId,
     whole: Type,

@@ -380,7 +380,7 @@ impl Loader {
 
     /// A user's own code needs its C beside it.
     fn missing_kernels(&mut self, used: &[Decl]) {
-        for decl in used.iter().filter(|decl| decl.user && !decl.is_composite()) {
+        for decl in used.iter().filter(|decl| decl.user && decl.has_kernel()) {
             let file = if decl.inline { format!("{}_inline.h", decl.stem) } else { format!("{}.c", decl.stem) };
             if !self.kernels.iter().any(|(name, _)| *name == file) {
                 let message =

@@ -220,7 +220,7 @@ impl<'c, 'a> Call<'c, 'a> {
         }
     }
 
-    fn port(&self, out: &mut String, statics: &mut Statics, port: usize) {
+    pub(crate) fn port(&self, out: &mut String, statics: &mut Statics, port: usize) {
         let declared = self.code().ports[port];
         let (first, count) = self.code().port_range(port, &self.block().sizes);
         if declared.group.is_some() {

@@ -3,6 +3,7 @@
 use crate::args::{Call, Caller, scratch_name};
 use crate::context::Context;
 use crate::expr::{self, Kind, Scope};
+use crate::formula;
 use crate::facts::{self, Scratch, element_scalar};
 use crate::layout::{Store, writes_through};
 use crate::statics::Statics;
@@ -182,7 +183,10 @@ fn kernel_call(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>) {
         destination(out, call);
         out.push_str(" = ");
     }
-    call.kernel(out, statics, Entry::Step);
+    match &call.code().decl.formula {
+        Some(formula) => formula::value(out, statics, call, formula),
+        None => call.kernel(out, statics, Entry::Step),
+    }
 }
 
 /// The call of a code whose result tells of a fault, and the test of the result.

@@ -30,7 +30,7 @@ impl<'a> Code<'a> {
     /// Looks a declaration up.
     pub(crate) fn new(decl: &'a Decl) -> Code<'a> {
         let function = |entry| Function {
-            exists: !decl.is_composite() && kernel::has(decl, entry),
+            exists: decl.has_kernel() && kernel::has(decl, entry),
             name: kernel::function_name(decl, entry),
             args: kernel::args(decl, entry),
         };

@@ -4,7 +4,7 @@ use crate::code::Code;
 use crate::facts::{self, Facts, Scratch};
 use crate::names::Namer;
 use crate::shape::{self, Cold, Extent, Form, Key, Shape};
-use pcl2_lang::decl::Direction;
+use pcl2_lang::decl::{Direction, Step};
 use pcl2_lang::program::{
     Block, DeclId, ImageId, Param, Program, Role, Section, SectionKind, Signal, SignalId, Source, Unit, UnitId,
 };
@@ -576,14 +576,31 @@ pub(crate) fn known_value(param: &Param) -> Option<&pcl2_lang::types::Value> {
     pcl2_lang::model::value(param)
 }
 
+/// The function codes behind a block's: those of an expression, else itself.
+pub(crate) fn codes_of(program: &Program, decl: DeclId) -> Vec<DeclId> {
+    let code = |step: &Step| match step {
+        Step::Port => None,
+        Step::Apply(code) => Some(*code),
+    };
+    match &program.decl(decl).formula {
+        Some(formula) => formula.iter().filter_map(code).collect(),
+        None => vec![decl],
+    }
+}
+
 /// The declarations that blocks of the program use, each once, in order of first use.
 pub(crate) fn used_decls(program: &Program, layout: &Layout<'_>) -> Vec<DeclId> {
     let mut seen = vec![false; program.decls.len()];
     let mut used = Vec::new();
     for (unit, _) in program.units.iter().zip(&layout.units).filter(|(_, layout)| layout.used) {
         for block in &unit.blocks {
-            if !std::mem::replace(&mut seen[block.decl.0 as usize], true) {
-                used.push(block.decl);
+            if std::mem::replace(&mut seen[block.decl.0 as usize], true) {
+                continue;
+            }
+            for code in codes_of(program, block.decl) {
+                if code == block.decl || !std::mem::replace(&mut seen[code.0 as usize], true) {
+                    used.push(code);
+                }
             }
         }
     }

@@ -12,6 +12,7 @@ mod context;
 mod example;
 mod expr;
 mod facts;
+mod formula;
 mod header;
 mod image;
 mod init;

@@ -63,7 +63,7 @@ pub(crate) fn collect(cx: &Context<'_>, known: &[&Decl], user: &[(String, String
     collector.put("pcl2/pcl2_config.h".to_owned(), config(cx.program.width));
     for decl in layout::used_decls(cx.program, &cx.layout) {
         let decl = cx.program.decl(decl);
-        if !decl.is_composite() {
+        if decl.has_kernel() {
             let family = family(known, &cx.program.decls, decl);
             collector.kernel(decl, &family);
         }
@@ -172,7 +172,7 @@ impl Collector<'_> {
         }
         let stem = source_of(name);
         let stem = stem.strip_suffix(".c").unwrap_or(&stem);
-        if let Some(decl) = self.known.iter().find(|decl| decl.stem == stem && !decl.is_composite()) {
+        if let Some(decl) = self.known.iter().find(|decl| decl.stem == stem && decl.has_kernel()) {
             let family = family(self.known, &[], decl);
             self.kernel(decl, &family);
         }

@@ -98,7 +98,8 @@ fn stems_in_long_sections<'c>(cx: &'c Context<'_>) -> Vec<(&'c str, &'c str)> {
     for section in cx.program.sections.iter().filter(|section| section.end - section.first > PART) {
         for block in &cx.program.unit(UnitId(0)).blocks[section.first as usize..section.end as usize] {
             if !std::mem::replace(&mut seen[block.decl.0 as usize], true) {
-                stems.push(stem(cx.program.decl(block.decl)));
+                let codes = layout::codes_of(cx.program, block.decl).into_iter();
+                stems.extend(codes.map(|code| stem(cx.program.decl(code))));
             }
         }
     }

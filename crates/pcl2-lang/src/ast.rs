@@ -22,20 +22,22 @@ pub enum Number {
     Real(Real),
 }
 
-/// One statement: `[number] [outputs] = code ( inputs : parameters )`.
+/// One statement: `[number] [outputs] = code ( inputs : parameters )`, or `[number] [outputs] = expression`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
     /// The block number, if written.
     pub number: Option<(u32, Span)>,
     /// The outputs.
     pub outputs: Box<[Output]>,
-    /// The function code.
+    /// The function code; of an expression a name without letters, at the place of the expression.
     pub code: Name,
+    /// What an expression does with its operands.
+    pub formula: Option<Box<Formula>>,
     /// The input list, then the parameter list.
     items: Box<[Item]>,
     /// How many items are inputs.
     inputs: u32,
-    /// Where the `:` stands, or `)` if there is none.
+    /// Where the `:` stands; of an expression its last character.
     pub colon: Span,
     /// From the first token to the closing parenthesis.
     pub span: Span,
@@ -50,18 +52,32 @@ impl Statement {
         (items, inputs): (Box<[Item]>, u32),
         (colon, span): (Span, Span),
     ) -> Statement {
-        Statement { number, outputs, code, items, inputs, colon, span }
+        Statement { number, outputs, code, formula: None, items, inputs, colon, span }
     }
 
-    /// The input list. An empty list has one empty item.
+    /// The input list; an empty list has one empty item. Of an expression the operands in order.
     pub fn inputs(&self) -> &[Item] {
         &self.items[..self.inputs as usize]
     }
 
-    /// The parameter list. An empty list has one empty item.
+    /// The parameter list; an empty list has one empty item. An expression has none.
     pub fn params(&self) -> &[Item] {
         &self.items[self.inputs as usize..]
     }
+}
+
+/// An expression in the order in which it is computed, operands before what is done with them.
+/// Without a term: it nests too deep, which was reported.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Formula(pub Vec<Term>);
+
+/// A part of an expression.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Term {
+    /// The next operand.
+    Operand,
+    /// An operator's sign or a function's name, and how many of the results before it are used up.
+    Apply(Name, u32),
 }
 
 /// One output.

@@ -27,6 +27,8 @@ pub struct Catalogue {
     by_name: FxHashMap<String, usize>,
     /// Names of declarations with mistakes.
     spoiled: FxHashSet<String>,
+    /// The codes that a sign or a function name stands for in expressions.
+    operators: FxHashMap<String, Vec<usize>>,
 }
 
 /// A user's declaration file.
@@ -100,7 +102,38 @@ impl Catalogue {
             if report.is_error() { diagnostics.push(report) } else { diagnostic::warn(diagnostics, report) }
         }
         self.by_name.insert(decl.name.clone(), self.decls.len());
+        self.add_operator(&decl, diagnostics);
         self.decls.push(decl);
+    }
+
+    fn add_operator(&mut self, decl: &Decl, diagnostics: &mut Vec<Diagnostic>) {
+        let Some(sign) = decl.operator.as_deref() else {
+            return;
+        };
+        let own = Some(sign).filter(|sign| !sign.is_empty() && *sign != decl.name);
+        for key in [decl.name.as_str()].into_iter().chain(own) {
+            let same = self.operators(key).find(|other| other.port_scalars().eq(decl.port_scalars()));
+            if let Some(other) = same {
+                let message = format!("expected one code for `{key}` over operands of the same types, found a second");
+                let report = Diagnostic::new(codes::BAD_DECLARATION, decl.span, message);
+                diagnostics.push(report.label(other.span, "the other one"));
+            }
+            self.operators.entry(key.to_owned()).or_default().push(self.decls.len());
+        }
+    }
+
+    /// The codes that a sign or a function name stands for in expressions, in order of reading.
+    pub fn operators(&self, key: &str) -> impl Iterator<Item = &Decl> {
+        let indexes = self.operators.get(key).into_iter().flatten().copied();
+        indexes.filter_map(|i| self.decls.get(i).filter(|decl| self.by_name.get(&decl.name) == Some(&i)))
+    }
+
+    /// The names of all functions that expressions can have, in order.
+    pub fn functions(&self) -> Vec<&str> {
+        let names = self.operators.keys().map(String::as_str);
+        let mut names: Vec<&str> = names.filter(|name| name.starts_with(|c: char| c.is_ascii_alphabetic())).collect();
+        names.sort_unstable();
+        names
     }
 
     /// The function code of this name.

@@ -49,6 +49,8 @@ pub const SECTION: Code = error("P0007");
 pub const UNREADABLE: Code = error("P0008");
 /// A string is never closed.
 pub const UNCLOSED_STRING: Code = error("P0009");
+/// An expression that nests too deep.
+pub const TOO_DEEP: Code = error("P0010");
 
 // P01xx: names and numbers.
 
@@ -72,6 +74,8 @@ pub const HIDDEN_CODE: Code = warning("P0108");
 pub const NAMED_TWICE: Code = error("P0109");
 /// A block has more or other outputs than its code.
 pub const OUTPUT_COUNT: Code = error("P0110");
+/// A function code that is no function in an expression, or a call of it without its `:`.
+pub const NO_FUNCTION: Code = error("P0111");
 
 // P02xx: types, sizes, values.
 
@@ -101,6 +105,8 @@ pub const REFUSED: Code = error("P0211");
 pub const UNKNOWN_SIZE: Code = error("P0212");
 /// A block that is legal in PLANT only, or an INITIALIZE block that may not be there.
 pub const WRONG_SECTION: Code = error("P0213");
+/// Nothing tells whether an expression is an int or a real.
+pub const UNKNOWN_TYPE: Code = error("P0214");
 
 // P03xx: order.
 

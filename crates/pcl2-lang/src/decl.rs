@@ -3,6 +3,7 @@
 //! Everything that the compiler knows of a block it reads here: the binding of calls, types and sizes,
 //! the C prototype ([`crate::kernel`]), ranges, tunable parameters, memory, documentation.
 
+use crate::program::DeclId;
 use crate::source::Span;
 use crate::types::{Real, Scalar, Value};
 
@@ -61,12 +62,23 @@ pub struct Decl {
     pub inline: bool,
     /// Legal in PLANT only.
     pub simulated: bool,
-    /// Usable in expressions: as this sign, or (empty) as a function.
+    /// Usable in expressions under its name, and as this sign or under this name, if it is not empty.
     pub operator: Option<String>,
     /// Tested examples.
     pub examples: Vec<Example>,
     /// The statements of a composite.
     pub body: Option<Vec<crate::ast::Statement>>,
+    /// Of an expression: what is done with its ports, in the order in which it is computed.
+    pub formula: Option<Vec<Step>>,
+}
+
+/// A part of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Step {
+    /// The next port.
+    Port,
+    /// An OPERATOR code takes as many of the latest results as it has ports.
+    Apply(DeclId),
 }
 
 /// The type of a declared place before its sizes are known.
@@ -298,6 +310,73 @@ impl TypeExpr {
 }
 
 impl Decl {
+    /// A code of which nothing but its name is known.
+    pub fn new(name: String, span: Span) -> Decl {
+        Decl {
+            name,
+            doc: String::new(),
+            span,
+            group: String::new(),
+            stem: String::new(),
+            user: false,
+            outputs: Vec::new(),
+            items: Vec::new(),
+            params: Vec::new(),
+            sizes: Vec::new(),
+            memory: Vec::new(),
+            work: Vec::new(),
+            tuned: Vec::new(),
+            start: Vec::new(),
+            retain: Vec::new(),
+            returns: None,
+            period: false,
+            check: false,
+            image: None,
+            faults: Vec::new(),
+            bad: None,
+            inline: false,
+            simulated: false,
+            operator: None,
+            examples: Vec::new(),
+            body: None,
+            formula: None,
+        }
+    }
+
+    /// An expression: an INLINE code made on the spot, whose ports are its operands in order.
+    pub fn expression(span: Span, operands: &[Scalar], result: Scalar, formula: Vec<Step>) -> Decl {
+        let mut decl = Decl::new("expression".to_owned(), span);
+        let port = |(i, scalar): (usize, &Scalar)| PortDecl {
+            name: format!("x{}", i + 1),
+            ty: TypeExpr::Scalar(*scalar),
+            cell: false,
+            group: None,
+            default: None,
+            tail: Tail::default(),
+            tracks: None,
+        };
+        decl.items = operands.iter().enumerate().map(|operand| Item::Port(Box::new(port(operand)))).collect();
+        let (name, ty) = ("y".to_owned(), TypeExpr::Scalar(result));
+        decl.outputs.push(OutputDecl { name, ty, inout: false, group: None, tail: Tail::default() });
+        decl.inline = true;
+        decl.bad = Some(BadRule::Algebraic);
+        decl.formula = Some(formula);
+        decl
+    }
+
+    /// The scalars of its ports, for a code whose ports are all scalar.
+    pub fn port_scalars(&self) -> impl Iterator<Item = Scalar> {
+        self.ports().filter_map(|port| match port.ty {
+            TypeExpr::Scalar(scalar) => Some(scalar),
+            TypeExpr::Vector(..) | TypeExpr::Matrix(..) | TypeExpr::Text | TypeExpr::Time => None,
+        })
+    }
+
+    /// Whether its C is a kernel of its own: not PCL2 statements, nor an expression over other kernels.
+    pub fn has_kernel(&self) -> bool {
+        self.body.is_none() && self.formula.is_none()
+    }
+
     /// The ports of the input list in order.
     pub fn ports(&self) -> impl Iterator<Item = &PortDecl> {
         self.items.iter().filter_map(|item| match item {

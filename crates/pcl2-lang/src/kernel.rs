@@ -317,7 +317,7 @@ pub fn header(stem: &str, decls: &[&Decl]) -> String {
     let mut text =
         format!("/* Instance types and prototypes of blocks/{stem}.fc. */\n#ifndef {guard}\n#define {guard}\n\n");
     text.push_str("#include \"pcl2.h\"\n");
-    for decl in decls.iter().filter(|decl| !decl.is_composite()) {
+    for decl in decls.iter().filter(|decl| decl.has_kernel()) {
         block_interface(&mut text, decl);
     }
     if decls.iter().any(|decl| decl.inline) {

@@ -72,6 +72,26 @@ pub enum Token {
     /// `/`
     #[token("/")]
     Slash,
+    /// `<`
+    #[token("<")]
+    Less,
+    /// `<=`
+    #[token("<=")]
+    LessEqual,
+    /// `>`
+    #[token(">")]
+    Greater,
+    /// `>=`
+    #[token(">=")]
+    GreaterEqual,
+    /// `==`
+    #[token("==")]
+    Same,
+    /// `<>`
+    #[token("<>")]
+    Differ,
+    /// The `=` before an expression; never produced by the lexer itself.
+    Becomes,
     /// A reserved word of the file's kind; never produced by the lexer itself.
     Key(Key),
     /// Anything else.
@@ -283,6 +303,8 @@ pub fn token_of(character: char) -> Option<Token> {
         '-' => Some(Token::Minus),
         '*' => Some(Token::Star),
         '/' => Some(Token::Slash),
+        '<' => Some(Token::Less),
+        '>' => Some(Token::Greater),
         _ => None,
     }
 }

@@ -1,7 +1,7 @@
 //! Tokens -> statements: lines are cut and missing parentheses found before the parser sees them, and it starts
 //! afresh behind a line that it does not understand, so that one mistake never hides the next.
 
-use crate::ast::{Item, Line, Name, Number, Operand, Output, Statement};
+use crate::ast::{Formula, Item, Line, Name, Number, Operand, Output, Statement, Term};
 use crate::codes;
 use crate::declare::raw::Expr;
 use crate::diagnostic::{self, Diagnostic};
@@ -64,6 +64,9 @@ pub struct Context<'a> {
     lines: Vec<Line>,
     outputs: Vec<Output>,
     items: Vec<Item>,
+    terms: Vec<Term>,
+    /// How deep the results nest that are not used up yet.
+    depths: Vec<u32>,
     too_deep: bool,
 }
 
@@ -125,7 +128,7 @@ enum Stop {
 
 impl<'a> Rows<'a> {
     fn new(source: &'a SourceFile, file: FileId) -> Rows<'a> {
-        let lines = Lines::new(source, file, &SECTION_WORDS);
+        let lines = Lines::new(source, file, true);
         Rows { lines, next: usize::MAX, stop: Stop::File, diagnostics: Vec::new() }
     }
 
@@ -211,21 +214,25 @@ pub(crate) struct Lines<'a> {
     file: FileId,
     lexer: Lexer<'a>,
     pending: Option<Lexeme>,
+    /// The lines are statements, not declarations.
+    in_program: bool,
     /// The tokens of the current line.
     pub(crate) tokens: Vec<Lexeme>,
 }
 
 impl<'a> Lines<'a> {
-    fn new(source: &'a SourceFile, file: FileId, words: &'static [(&'static str, Key)]) -> Lines<'a> {
-        Lines { source, file, lexer: Lexer::new(&source.text, words), pending: None, tokens: Vec::new() }
+    fn new(source: &'a SourceFile, file: FileId, in_program: bool) -> Lines<'a> {
+        let lexer = Lexer::new(&source.text, if in_program { &SECTION_WORDS } else { &DECLARATION_WORDS });
+        Lines { source, file, lexer, pending: None, in_program, tokens: Vec::new() }
     }
 
     pub(crate) fn declarations(source: &'a SourceFile, file: FileId) -> Lines<'a> {
-        Lines::new(source, file, &DECLARATION_WORDS)
+        Lines::new(source, file, false)
     }
 
     /// Switches between the words of declarations and those of programs, for a composite's body.
     pub(crate) fn set_words(&mut self, in_body: bool) {
+        self.in_program = in_body;
         self.lexer.set_words(if in_body { &SECTION_WORDS } else { &DECLARATION_WORDS });
     }
 
@@ -246,6 +253,7 @@ impl<'a> Lines<'a> {
         let mut open: Vec<Lexeme> = Vec::new();
         let mut open_text = false;
         let mut bad = Bad::default();
+        let (mut equals, mut colon) = (None, false);
         while let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) {
             match lexeme.token {
                 Token::Newline if open.is_empty() && self.tokens.is_empty() => continue,
@@ -254,6 +262,8 @@ impl<'a> Lines<'a> {
                 Token::Newline => continue,
                 Token::LeftParen => open.push(lexeme),
                 Token::RightParen => drop(open.pop()),
+                Token::Colon => colon = true,
+                Token::Equals if open.is_empty() && equals.is_none() => equals = Some(self.tokens.len()),
                 Token::Key(Key::End) if self.tokens.is_empty() => {
                     self.tokens.push(lexeme);
                     return Some(false);
@@ -280,6 +290,9 @@ impl<'a> Lines<'a> {
         }
         if self.tokens.is_empty() {
             return None;
+        }
+        if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, self.in_program) {
+            equals.token = Token::Becomes;
         }
         // A string without its end has swallowed the parenthesis.
         if let (Some(first), false) = (open.first(), open_text) {
@@ -327,8 +340,7 @@ impl<'a> Lines<'a> {
             }
         }
         let equals = ahead.next_if_eq(&Token::Equals).is_some();
-        let call = ahead.next_if_eq(&Token::Name).is_some() && ahead.next_if_eq(&Token::LeftParen).is_some();
-        equals && (numbered || call)
+        equals && (numbered || !is_named_argument(ahead))
     }
 
     fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
@@ -340,6 +352,27 @@ impl<'a> Lines<'a> {
             )
             .help("close this parenthesis"),
         );
+    }
+}
+
+/// Whether what stands behind `K =` is the value of a named argument, and neither a call nor an expression.
+fn is_named_argument(mut ahead: std::iter::Peekable<impl Iterator<Item = Token>>) -> bool {
+    let signed = ahead.next_if(|token| matches!(token, Token::Plus | Token::Minus)).is_some();
+    match ahead.next() {
+        Some(Token::Name) if signed => false,
+        Some(Token::Name) => !matches!(ahead.peek(), Some(Token::LeftParen)) && !ahead.peek().is_some_and(is_sign),
+        Some(Token::Int | Token::Real) => !ahead.peek().is_some_and(is_sign),
+        Some(Token::LeftParen) => false,
+        Some(_) | None => true,
+    }
+}
+
+/// Whether a token between two operands makes an expression of them.
+fn is_sign(token: &Token) -> bool {
+    match token {
+        Token::Plus | Token::Minus | Token::Star | Token::Slash => true,
+        Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ => true,
+        _ => false,
     }
 }
 
@@ -433,6 +466,8 @@ impl<'a> Context<'a> {
             lines: Vec::new(),
             outputs: Vec::new(),
             items: Vec::new(),
+            terms: Vec::new(),
+            depths: Vec::new(),
             too_deep: false,
         }
     }
@@ -465,6 +500,55 @@ impl<'a> Context<'a> {
         let outputs = self.outputs.drain(..).collect();
         let items = self.items.drain(..).collect();
         Box::new(Statement::new(number, outputs, code, (items, inputs), (colon, self.span(start, end))))
+    }
+
+    /// A statement whose right side, from `first` to `end`, is an expression.
+    fn expression(
+        &mut self,
+        start: u32,
+        number: Option<(u32, Span)>,
+        (first, end): (u32, u32),
+    ) -> Box<Statement> {
+        let place = self.span(first, end);
+        self.depths.clear();
+        if std::mem::take(&mut self.too_deep) {
+            self.terms.clear();
+            self.items.clear();
+            let message = format!("expected an expression at most {MAX_DEPTH} deep, found a deeper one");
+            let help = "give a part of it a line of its own";
+            self.diagnostics.push(Diagnostic::new(codes::TOO_DEEP, place, message).help(help));
+        }
+        let formula = Formula(self.terms.drain(..).collect());
+        let code = Name { symbol: self.symbols.intern(""), span: place };
+        let outputs = self.outputs.drain(..).collect();
+        let items: Box<[Item]> = self.items.drain(..).collect();
+        let inputs = items.len() as u32;
+        let last = Span { start: end.saturating_sub(1).max(first), ..place };
+        let mut statement = Statement::new(number, outputs, code, (items, inputs), (last, self.span(start, end)));
+        statement.formula = Some(Box::new(formula));
+        Box::new(statement)
+    }
+
+    fn operand(&mut self, value: Operand, start: u32, end: u32) {
+        self.place(None, value, start, end);
+        self.terms.push(Term::Operand);
+        self.depths.push(0);
+    }
+
+    fn literal(&mut self, start: u32, negative: bool, first: u32, end: u32) {
+        let number = self.number(start, negative, first, end);
+        self.operand(Operand::Number(number), start, end);
+    }
+
+    /// The sign or name at a place is applied to the latest results.
+    fn apply(&mut self, start: u32, end: u32, count: u32) {
+        let rest = self.depths.len().saturating_sub(count as usize);
+        let depth = self.depths.drain(rest..).max().unwrap_or(0) + 1;
+        self.depths.push(depth);
+        self.too_deep |= depth > MAX_DEPTH;
+        let span = self.span(start, end);
+        let symbol = self.symbols.intern(self.text(span));
+        self.terms.push(Term::Apply(Name { symbol, span }, count));
     }
 
     fn missing_end(&mut self) {
@@ -561,6 +645,9 @@ impl<'a> Context<'a> {
     fn report(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
         self.outputs.clear();
         self.items.clear();
+        self.terms.clear();
+        self.depths.clear();
+        self.too_deep = false;
         let (span, found, expected) = match error {
             ParseError::UnrecognizedToken { token: (start, Token::Newline, _), expected } => {
                 (self.span(start.saturating_sub(1), start), "the end of the line".to_owned(), expected)
@@ -631,7 +718,7 @@ impl<'a> Context<'a> {
                     tree.spoiled.push(symbol);
                 }
                 Token::Int => tree.spoiled_numbers.extend(text.parse::<u32>()),
-                Token::Equals => return,
+                Token::Equals | Token::Becomes => return,
                 _ => {}
             }
         }
@@ -647,6 +734,9 @@ fn form_help(tokens: &[Lexeme]) -> &'static str {
     match tokens.first().map(|lexeme| lexeme.token) {
         Some(Token::Key(Key::Control)) => "a section is `CONTROL [n [offset]]`",
         Some(Token::Key(_)) => "a section word stands alone on its line",
+        _ if tokens.iter().any(|lexeme| lexeme.token == Token::Becomes) => {
+            "a block is `[number] [outputs] = code ( inputs : parameters )`, or without `:` an expression"
+        }
         _ => "a block is `[number] [outputs] = code ( inputs : parameters )`",
     }
 }
@@ -669,6 +759,10 @@ fn list(expected: &[String]) -> String {
     if names_number {
         words.retain(|word| !matches!(*word, "`+`" | "`-`" | "a string" | "`_`"));
     }
+    if words.contains(&"`*`") {
+        words.retain(|word| !is_operator(word));
+        words.push("an operator");
+    }
     if words.contains(&"a clause word") {
         words.retain(|word| *word != "a section word");
     }
@@ -677,6 +771,10 @@ fn list(expected: &[String]) -> String {
         [one] => (*one).to_owned(),
         [most @ .., last] => format!("{} or {last}", most.join(", ")),
     }
+}
+
+fn is_operator(word: &str) -> bool {
+    matches!(word, "`+`" | "`-`" | "`*`" | "`/`" | "`<`" | "`<=`" | "`>`" | "`>=`" | "`==`" | "`<>`")
 }
 
 fn readable(token: &str) -> &str {
@@ -694,7 +792,13 @@ fn readable(token: &str) -> &str {
         "}" => "`}`",
         "," => "`,`",
         ":" => "`:`",
-        "=" => "`=`",
+        "=" | "becomes" => "`=`",
+        "<" => "`<`",
+        "<=" => "`<=`",
+        ">" => "`>`",
+        ">=" => "`>=`",
+        "==" => "`==`",
+        "<>" => "`<>`",
         "." => "`.`",
         "+" => "`+`",
         "-" => "`-`",

@@ -4,10 +4,10 @@
 //! bounded, every port carries a type that its declaration accepts. A front end that lets something else
 //! through is a defect of ours, reported as [`Defect`] and never as a panic.
 
-use crate::decl::{Decl, TypeExpr};
+use crate::decl::{Decl, Step, TypeExpr};
 use crate::kernel;
 use crate::program::{Block, Param, Program, SectionKind, SignalId, Source, Unit};
-use crate::types::{Type, Value};
+use crate::types::{Scalar, Type, Value};
 use std::fmt;
 
 /// A program's largest size in bytes.
@@ -43,6 +43,9 @@ pub fn verify(program: Program) -> Result<Verified, Defect> {
     for (u, unit) in program.units.iter().enumerate() {
         verify_unit(&program, unit, u)?;
     }
+    for decl in &program.decls {
+        verify_formula(&program, decl).map_err(|d| Defect(format!("{}: {d}", decl.name)))?;
+    }
     verify_sections(&program)?;
     require(bytes(&program).is_some_and(|bytes| bytes <= MAX_PROGRAM), || "the program is too large".to_owned())?;
     Ok(Verified(program))
@@ -64,6 +67,42 @@ fn verify_sections(program: &Program) -> Check {
         }
     }
     require(next as usize == program.main().blocks.len(), || "sections do not cover the blocks".to_owned())
+}
+
+/// An expression takes every port once and leaves one result; its codes are OPERATORs without an expression of theirs.
+fn verify_formula(program: &Program, decl: &Decl) -> Check {
+    let Some(formula) = &decl.formula else {
+        return Ok(());
+    };
+    let mut ports = decl.port_scalars();
+    let mut results: Vec<Scalar> = Vec::new();
+    for step in formula {
+        let result = match step {
+            Step::Port => ports.next().ok_or_else(|| Defect("an operand is missing".to_owned()))?,
+            Step::Apply(id) => {
+                let code = program.decls.get(id.0 as usize).filter(|code| code.operator.is_some() && code.has_kernel());
+                let Some(code) = code else {
+                    return Err(Defect("an operator does not exist".to_owned()));
+                };
+                let wanted: Vec<Scalar> = code.port_scalars().collect();
+                let rest = results.len().checked_sub(wanted.len());
+                let rest = rest.ok_or_else(|| Defect("an operator has too few operands".to_owned()))?;
+                let fits = results.drain(rest..).zip(&wanted).all(|(found, want)| found == *want || found == Scalar::Int);
+                require(fits, || format!("an operand of {} has the wrong type", code.name))?;
+                result_of(code)?
+            }
+        };
+        results.push(result);
+    }
+    require(ports.next().is_none(), || "an operand too many".to_owned())?;
+    require(results == [result_of(decl)?], || "it has another result".to_owned())
+}
+
+fn result_of(decl: &Decl) -> Result<Scalar, Defect> {
+    match decl.outputs.as_slice() {
+        [output] => resolve(&output.ty, &[]).map(|ty| ty.scalar),
+        _ => Err(Defect("it has not one output".to_owned())),
+    }
 }
 
 fn verify_unit(program: &Program, unit: &Unit, index: usize) -> Check {
@@ -182,7 +221,7 @@ fn source_type(unit: &Unit, source: &Source) -> Result<Type, Defect> {
 }
 
 fn value_type(value: &Value) -> Type {
-    use crate::types::{Scalar, Shape};
+    use crate::types::Shape;
     match value {
         Value::Int(_) | Value::Text(_) => Type::INT,
         Value::Real(_) => Type::REAL,

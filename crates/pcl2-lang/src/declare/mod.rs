@@ -130,34 +130,8 @@ fn comment_above(text: &str, start: usize) -> String {
 }
 
 fn head(context: &mut Context<'_>, outputs: &[raw::Output], call: &raw::Call) -> Decl {
-    let mut decl = Decl {
-        name: context.symbol_text(call.name.symbol).to_owned(),
-        doc: String::new(),
-        span: call.name.span,
-        group: String::new(),
-        stem: String::new(),
-        user: false,
-        outputs: Vec::new(),
-        items: Vec::new(),
-        params: Vec::new(),
-        sizes: Vec::new(),
-        memory: Vec::new(),
-        work: Vec::new(),
-        tuned: Vec::new(),
-        start: Vec::new(),
-        retain: Vec::new(),
-        returns: None,
-        period: false,
-        check: false,
-        image: None,
-        faults: Vec::new(),
-        bad: None,
-        inline: false,
-        simulated: false,
-        operator: None,
-        examples: Vec::new(),
-        body: None,
-    };
+    let name = context.symbol_text(call.name.symbol).to_owned();
+    let mut decl = Decl::new(name, call.name.span);
     declare_sizes(context, &mut decl, call);
     for item in &call.items {
         let item = declare_item(context, &decl, item);
@@ -624,7 +598,54 @@ fn check(context: &mut Context<'_>, decl: &Decl) {
     if decl.inline {
         check_inline(context, decl);
     }
+    if decl.operator.is_some() {
+        check_operator(context, decl);
+    }
     check_tracks(context, decl);
+}
+
+/// The signs that expressions have, and with how many operands.
+const SIGNS: [(&str, &[usize]); 10] = [
+    ("+", &[2]),
+    ("-", &[1, 2]),
+    ("*", &[2]),
+    ("/", &[2]),
+    ("<", &[2]),
+    ("<=", &[2]),
+    (">", &[2]),
+    (">=", &[2]),
+    ("==", &[2]),
+    ("<>", &[2]),
+];
+
+/// An operator is a pure function of scalars.
+fn check_operator(context: &mut Context<'_>, decl: &Decl) {
+    let port = |item: &Item| match item {
+        Item::Port(port) => matches!(port.ty, TypeExpr::Scalar(_)) && port.group.is_none() && !port.cell,
+        Item::Literal(_) | Item::Constant(_) => false,
+    };
+    let param = |param: &ParamDecl| matches!(param.ty, TypeExpr::Scalar(_)) && param.default.is_some();
+    let scalar = kernel::returns_value(decl) && matches!(decl.outputs[0].ty, TypeExpr::Scalar(_));
+    let pure = decl.has_kernel() && decl.image.is_none() && !decl.simulated && decl.work.is_empty();
+    let places = !decl.items.is_empty() && decl.items.iter().all(port) && decl.params.iter().all(param);
+    if !(scalar && pure && places) {
+        let message =
+            "expected an INLINE code with scalar ports, parameters with defaults and one scalar output for OPERATOR, found another";
+        complain(context, decl.span, message);
+    }
+    let sign = decl.operator.as_deref().unwrap_or_default();
+    let word = sign.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        && !sign.starts_with(|first: char| !first.is_ascii_alphabetic());
+    match SIGNS.iter().find(|(known, _)| *known == sign) {
+        Some((_, counts)) if counts.contains(&decl.ports().count()) => {}
+        None if word => {}
+        Some(_) => complain(context, decl.span, format!("expected as many ports as `{sign}` has operands, found others")),
+        None => {
+            let signs: Vec<&str> = SIGNS.iter().map(|(sign, _)| *sign).collect();
+            let message = format!("expected a name or one of {} for OPERATOR, found `{sign}`", signs.join(" "));
+            complain(context, decl.span, message);
+        }
+    }
 }
 
 /// An INLINE code keeps nothing. Its one fault, if it has any, is that its result is bad although no input is.

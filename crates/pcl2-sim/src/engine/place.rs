@@ -81,7 +81,8 @@ pub(crate) struct Store<'a> {
     pub(crate) convert_starts: Vec<usize>,
     /// Only parameters get places.
     params_only: bool,
-    kernels: Vec<Option<Kernel>>,
+    /// By declaration.
+    pub(crate) kernels: Vec<Option<Kernel>>,
     nodes: usize,
 }
 
@@ -99,7 +100,7 @@ impl<'a> Store<'a> {
         let mut store = Store::params_only(program);
         store.params_only = false;
         for (kernel, decl) in store.kernels.iter().zip(&program.decls) {
-            if kernel.is_none() && !decl.is_composite() {
+            if kernel.is_none() && decl.has_kernel() {
                 return Err(Unsupported::OwnC(decl.name.clone()));
             }
         }

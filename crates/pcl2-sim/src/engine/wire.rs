@@ -2,10 +2,10 @@
 
 use super::Unsupported;
 use super::place::{Body, Fill, NOWHERE, Node, Store, has_slot, width_of};
-use crate::ffi::{Op, Plan, Slot, Tape};
-use pcl2_lang::decl::{Decl, PortDecl, TypeExpr};
+use crate::ffi::{Function, Op, Plan, Slot, Tape};
+use pcl2_lang::decl::{Decl, PortDecl, Step, TypeExpr};
 use pcl2_lang::kernel::{self, Arg, Entry};
-use pcl2_lang::program::{Block, BlockId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer};
+use pcl2_lang::program::{Block, BlockId, DeclId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer};
 use pcl2_lang::types::{Real, Scalar, Shape, Type};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -267,6 +267,9 @@ impl<'a, 'b> Wiring<'a, 'b> {
         checks: &mut Checks,
     ) -> Result<(), Unsupported> {
         let decl = self.program.decl(block.decl);
+        if let Some(formula) = &decl.formula {
+            return self.expression(unit, block, decl, node, formula, context);
+        }
         for (entry, tape) in self.entries.iter().copied() {
             let Some(function) = node.kernel.and_then(|kernel| kernel.function(entry)) else {
                 continue;
@@ -281,14 +284,108 @@ impl<'a, 'b> Wiring<'a, 'b> {
                 Entry::Step | Entry::Tune | Entry::Init => {}
             }
             let judged = if entry == Entry::Step { judged(decl, &slots) } else { Vec::new() };
-            let (first, count) = self.table(slots);
-            self.plan.tape(tape).push(Op::Call { function, first, count });
-            if let (Some(at), false) = (node.status, judged.is_empty()) {
-                let (first, count) = self.table(judged);
-                self.plan.tape(tape).push(Op::Judge { first, count, at });
-            }
+            self.call(tape, function, slots);
+            self.judge(node, judged);
         }
         Ok(())
+    }
+
+    fn call(&mut self, tape: Tape, function: Function, slots: Vec<Slot>) {
+        let (first, count) = self.table(slots);
+        self.plan.tape(tape).push(Op::Call { function, first, count });
+    }
+
+    /// Looks at real inputs and result of a code whose result tells of its fault.
+    fn judge(&mut self, node: &Node, judged: Vec<Slot>) {
+        if let (Some(at), false) = (node.status, judged.is_empty()) {
+            let (first, count) = self.table(judged);
+            self.plan.tape(Tape::Step).push(Op::Judge { first, count, at });
+        }
+    }
+
+    /// An expression: one call for each of its codes, the last into the output.
+    fn expression(
+        &mut self,
+        unit: &'a Unit,
+        block: &'a Block,
+        decl: &'a Decl,
+        node: &Node,
+        formula: &'a [Step],
+        context: &Context,
+    ) -> Result<(), Unsupported> {
+        if !self.entries.iter().any(|(entry, _)| *entry == Entry::Step) {
+            return Ok(());
+        }
+        let result = self.output(block, decl, node, 0);
+        let (mut inputs, mut first) = (Vec::new(), 0);
+        for port in decl.ports() {
+            inputs.push((self.port(unit, block, port, &mut first, context)?, port.ty == TypeExpr::Scalar(Scalar::Real)));
+        }
+        let mut next = inputs.iter().copied();
+        let mut results: Vec<(Slot, bool)> = Vec::new();
+        for (i, step) in formula.iter().enumerate() {
+            let last = i + 1 == formula.len();
+            let done = match step {
+                Step::Port => next.next().unwrap_or((result, true)),
+                Step::Apply(code) => self.apply(*code, &mut results, last.then_some(result))?,
+            };
+            if let (true, Step::Port) = (last, step) {
+                self.plan.tape(Tape::Step).push(Op::Copy { from: done.0.at, to: result.at, bytes: result.bytes });
+            }
+            results.push(done);
+        }
+        if kernel::faults_by_result(decl) {
+            let judged = inputs.iter().filter(|(_, real)| *real).map(|(slot, _)| *slot).chain([result]);
+            self.judge(node, judged.collect());
+        }
+        Ok(())
+    }
+
+    /// Calls an operator code on the latest results. What it gives, and whether that is a real.
+    fn apply(
+        &mut self,
+        code: DeclId,
+        results: &mut Vec<(Slot, bool)>,
+        to: Option<Slot>,
+    ) -> Result<(Slot, bool), Unsupported> {
+        let program = self.program;
+        let decl = program.decl(code);
+        let wanted: Vec<Scalar> = decl.port_scalars().collect();
+        let operands = results.split_off(results.len().saturating_sub(wanted.len()));
+        let mut slots = Vec::new();
+        for arg in kernel::args(decl, Entry::Step) {
+            slots.push(match arg {
+                Arg::Port(i) => self.as_wanted(operands[i], wanted[i])?,
+                Arg::Param(i) => {
+                    let param = &decl.params[i];
+                    let ty = kernel::resolve(&param.ty, &[]).unwrap_or(Type::REAL);
+                    let value = param.default.as_ref();
+                    let at = value.map_or(Ok(NOWHERE), |value| self.store.constant(ty, value))?;
+                    self.slot(at, self.store.type_bytes(ty))
+                }
+                _ => Slot { at: 0, bytes: 0 },
+            });
+        }
+        let ty = kernel::resolve(&decl.outputs[0].ty, &[]).unwrap_or(Type::REAL);
+        let result = match to {
+            Some(slot) => slot,
+            None => Slot { at: self.store.take_type(ty)?, bytes: self.store.type_bytes(ty) },
+        };
+        slots.push(result);
+        if let Some(function) = self.store.kernels[code.0 as usize].and_then(|kernel| kernel.function(Entry::Step)) {
+            self.call(Tape::Step, function, slots);
+        }
+        Ok((result, ty.scalar == Scalar::Real))
+    }
+
+    /// An int where a real is wanted is converted.
+    fn as_wanted(&mut self, (slot, real): (Slot, bool), wanted: Scalar) -> Result<Slot, Unsupported> {
+        if real || wanted == Scalar::Int {
+            return Ok(slot);
+        }
+        let to = self.store.take_type(Type::REAL)?;
+        self.plan.tape(Tape::Step).push(Op::Convert { from: slot.at, to });
+        Ok(Slot { at: to, bytes: self.store.type_bytes(Type::REAL) })
     }
 
     /// Adds slots to the table of arguments.
