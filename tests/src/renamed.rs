@@ -55,10 +55,12 @@ impl Codes {
         if self.stems.contains(stem) { format!("{PREFIX}{name}") } else { name }
     }
 
-    /// A program or a declaration: every `= code (` has the new name.
+    /// A program or a declaration: every `= code (`, and in expressions every `function(`, has the new name.
     pub fn program(&self, text: &str) -> String {
         replace(text, |before, word, after| {
-            let called = before.trim_end().ends_with('=') && after.trim_start().starts_with('(');
+            let line = before.rsplit('\n').next().unwrap_or_default();
+            let in_statement = line.contains('=') && !line.contains(['!', '"']);
+            let called = in_statement && after.trim_start().starts_with('(');
             (called && self.codes.contains(word)).then(|| format!("{PREFIX}{word}"))
         })
     }

@@ -12,6 +12,7 @@ use pcl2_lang::program::{DeclId, SignalId, Source};
 use pcl2_lang::source::{FileId, Span};
 use pcl2_lang::suggest;
 use pcl2_lang::types::{Real, Scalar, Shape, Type, Value};
+use rustc_hash::FxHashSet;
 use std::sync::LazyLock;
 
 /// Stands for every expression until its types are known: one output without a number type of its own.
@@ -34,12 +35,7 @@ enum Part<'a> {
 }
 
 /// Pass 2: operators and functions are known codes, and have as many operands as these have ports.
-pub(crate) fn bind<'a>(
-    input: &Input<'a>,
-    draft: &mut Draft<'a>,
-    formula: &Formula,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+pub(crate) fn bind<'a>(input: &Input<'a>, draft: &mut Draft<'a>, formula: &Formula, diagnostics: &mut Vec<Diagnostic>) {
     draft.decl = Some(&*EXPRESSION);
     draft.operands = draft.statement.inputs().iter().map(Some).collect();
     draft.spoiled = formula.0.is_empty();
@@ -79,7 +75,9 @@ fn no_function(
     if let Some(most) = counts.pop() {
         let some: String = counts.iter().map(|count| format!("{count} or ")).collect();
         let message = format!("expected {some}{} of `{text}`, found {count}", count_word(most, "operand"));
-        return Diagnostic::new(codes::INPUT_COUNT, name.span, message);
+        let forms: Vec<String> = input.catalogue.operators(text).map(|decl| function_form(text, decl)).collect();
+        let help = format!("the form is {}", forms.join(" or "));
+        return Diagnostic::new(codes::INPUT_COUNT, name.span, message).help(help);
     }
     match input.catalogue.find(text) {
         Some(decl) if whole => {
@@ -88,7 +86,8 @@ fn no_function(
             Diagnostic::new(codes::NO_FUNCTION, draft.statement.colon, message).help(help)
         }
         Some(_) => {
-            let message = format!("expected a function of expressions, found the function code `{text}`, which is none");
+            let message =
+                format!("expected a function of expressions, found the function code `{text}`, which is none");
             let help = format!("give it a line of its own, `v = {text} ( .. : .. )`, and use v here");
             Diagnostic::new(codes::NO_FUNCTION, name.span, message).help(help)
         }
@@ -101,6 +100,12 @@ fn no_function(
             Diagnostic::new(codes::UNKNOWN_CODE, name.span, message).help(help)
         }
     }
+}
+
+/// `div(a, b)`
+fn function_form(text: &str, decl: &Decl) -> String {
+    let ports: Vec<&str> = decl.ports().map(|port| port.name.as_str()).collect();
+    format!("{text}({})", ports.join(", "))
 }
 
 /// Pass 5: what is known of the result while types are searched.
@@ -184,12 +189,7 @@ fn best<'a>(codes: &[&'a Decl], operands: &[Option<Scalar>]) -> Option<&'a Decl>
 }
 
 /// Pass 5, when all types are known: operands are scalars, each operator becomes one code.
-pub(crate) fn check<'a>(
-    input: &Input<'a>,
-    scope: &mut Scope<'a>,
-    index: usize,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+pub(crate) fn check<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
     let Some(mut parts) = scope.drafts[index].formula.take() else {
         return;
     };
@@ -310,12 +310,31 @@ fn misfit(
     Diagnostic::new(codes::TYPE_DIFFERS, name.span, message).help("a real does not fit where an int is needed")
 }
 
+/// The signal that an expression waits for.
+fn waits_for(scope: &Scope<'_>, draft: &Draft<'_>) -> Option<SignalId> {
+    match infer(scope, draft, draft.formula.as_deref()?) {
+        Inferred::Waiting(id) => Some(id),
+        Inferred::Known(_) | Inferred::Spoiled => None,
+    }
+}
+
+/// Of expressions that wait for one another: one that waits for itself, or the first that waits for no expression.
+pub(crate) fn first_of_loop(scope: &Scope<'_>, block: usize) -> usize {
+    let mut seen = FxHashSet::default();
+    let mut here = block;
+    while seen.insert(here) {
+        let writers = waits_for(scope, &scope.drafts[here]).map_or(&[][..], |id| &scope.wire(id).writers);
+        match writers.iter().map(|writer| writer.block.0 as usize).find(|writer| !scope.drafts[*writer].spoiled) {
+            Some(writer) => here = writer,
+            None => return here,
+        }
+    }
+    here
+}
+
 /// Pass 5: nothing tells what an expression is.
-pub(crate) fn unknown_type(scope: &Scope<'_>, draft: &Draft<'_>, parts: &Parts<'_>) -> Diagnostic {
-    let name = match infer(scope, draft, parts) {
-        Inferred::Waiting(id) => scope.wire(id).name.as_str(),
-        Inferred::Known(_) | Inferred::Spoiled => "",
-    };
+pub(crate) fn unknown_type(scope: &Scope<'_>, draft: &Draft<'_>) -> Diagnostic {
+    let name = waits_for(scope, draft).map_or("", |id| scope.wire(id).name.as_str());
     let message = format!(
         "{}: expected operands that tell whether the expression is an int or a real, found `{name}`, which depends on it",
         draft.title()

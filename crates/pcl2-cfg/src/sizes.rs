@@ -24,10 +24,12 @@ pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &
     }
     let mut search = Search { ready: order.into(), waiting: FxHashMap::default() };
     search.run(scope, diagnostics);
+    search.declare(input, scope);
+    search.run(scope, diagnostics);
     while let (Some(i), false) = (search.first_waiting(scope), diagnostic::enough(diagnostics)) {
-        let draft = &scope.drafts[i];
-        if let Some(parts) = draft.formula.as_deref() {
-            diagnostics.push(formula::unknown_type(scope, draft, parts));
+        let i = formula::first_of_loop(scope, i);
+        if scope.drafts[i].formula.is_some() {
+            diagnostics.push(formula::unknown_type(scope, &scope.drafts[i]));
             spoil(scope, i);
         } else {
             let help = "set one variable of the loop in INITIALIZE, for instance with setmat";
@@ -137,6 +139,22 @@ impl Search {
         }
         for output in &scope.drafts[index].outputs {
             self.ready.extend(self.waiting.remove(output).into_iter().flatten());
+        }
+    }
+
+    /// What blocks of a composite's body still wait for may be its outputs: their types are declared.
+    fn declare(&mut self, input: &Input<'_>, scope: &mut Scope<'_>) {
+        let Some((decl, sizes)) = scope.owner.clone().filter(|_| !self.waiting.is_empty()) else {
+            return;
+        };
+        for (i, name) in crate::number::output_names(decl, &sizes).iter().enumerate() {
+            let id = input.symbols.find(name).and_then(|symbol| scope.by_name.get(symbol));
+            let Some(id) = id.filter(|id| scope.wire(*id).ty.is_none() && !scope.wire(*id).spoiled) else {
+                continue;
+            };
+            let declared = pcl2_lang::model::output_decl(decl, &sizes, i);
+            scope.wires[id.0 as usize].ty = declared.and_then(|o| kernel::resolve(&decl.outputs[o].ty, &sizes));
+            self.ready.extend(self.waiting.remove(&id).into_iter().flatten());
         }
     }
 

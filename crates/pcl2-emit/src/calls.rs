@@ -3,8 +3,8 @@
 use crate::args::{Call, Caller, scratch_name};
 use crate::context::Context;
 use crate::expr::{self, Kind, Scope};
-use crate::formula;
 use crate::facts::{self, Scratch, element_scalar};
+use crate::formula;
 use crate::layout::{Store, writes_through};
 use crate::statics::Statics;
 use crate::text;

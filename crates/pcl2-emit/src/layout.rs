@@ -522,9 +522,11 @@ fn stores_inside(unit: &Unit, codes: &[Code<'_>]) -> Vec<Store> {
     unit.signals.iter().enumerate().map(store).collect()
 }
 
-/// Signals that must outlive the call: outputs of the composite, and those read before they are written.
+/// Signals that must outlive the call: outputs of the composite, and those read before they are written. One that
+/// nobody reads stays in the instance too: as a local variable it would be an unused one.
 fn read_early(unit: &Unit) -> Vec<bool> {
     let mut early = vec![false; unit.signals.len()];
+    let mut read = vec![false; unit.signals.len()];
     for signal in &unit.outputs {
         early[signal.0 as usize] = true;
     }
@@ -533,10 +535,11 @@ fn read_early(unit: &Unit) -> Vec<bool> {
             if let Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) = source {
                 let first = unit.signal(*id).writers.first();
                 early[id.0 as usize] |= first.is_none_or(|writer| writer.block.0 as usize >= b);
+                read[id.0 as usize] = true;
             }
         }
     }
-    early
+    early.iter().zip(read).map(|(early, read)| *early || !read).collect()
 }
 
 fn is_temporary(unit: &Unit, codes: &[Code<'_>], block: u32) -> bool {

@@ -88,7 +88,7 @@ pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics
         let parsed = parser.parse(&mut context, &mut rows);
         context.diagnostics.append(&mut rows.diagnostics);
         match (parsed, rows.stop) {
-            (Err(error), _) => context.report(error, &rows.lines.tokens),
+            (Err(error), _) => context.report_line(error, &rows.lines.tokens),
             (Ok(()), Stop::Broken) => {}
             (Ok(()), Stop::Word(span)) => {
                 tree.end = Some(span);
@@ -202,10 +202,23 @@ pub(crate) fn parse_body_line(context: &mut Context<'_>, lines: &Lines<'_>) -> O
     match cfg::CfgLineParser::new().parse(context, lines.tokens()) {
         Ok(line) => Some(line),
         Err(error) => {
-            context.report(error, &lines.tokens);
+            context.report_line(error, &lines.tokens);
             None
         }
     }
+}
+
+/// Whether an expression has something that only a call has, an empty place, a named one or a string: its `:` is missing.
+fn is_call(tokens: &[Lexeme], error: &ParseError<u32, Token, ()>) -> bool {
+    let ParseError::UnrecognizedToken { token: (start, found, _), .. } = error else {
+        return false;
+    };
+    let behind = tokens.iter().skip_while(|lexeme| lexeme.token != Token::Becomes).skip(1);
+    let head: Vec<Token> = behind.take(2).map(|lexeme| lexeme.token).collect();
+    let previous = tokens.iter().take_while(|lexeme| lexeme.start < *start).last().map(|lexeme| lexeme.token);
+    let empty =
+        matches!(found, Token::RightParen | Token::Comma) && matches!(previous, Some(Token::LeftParen | Token::Comma));
+    head == [Token::Name, Token::LeftParen] && (empty || matches!(found, Token::Equals | Token::Text))
 }
 
 /// Cuts a file into logical lines: a newline inside parentheses is white space.
@@ -371,6 +384,12 @@ fn is_named_argument(mut ahead: std::iter::Peekable<impl Iterator<Item = Token>>
 fn is_sign(token: &Token) -> bool {
     match token {
         Token::Plus | Token::Minus | Token::Star | Token::Slash => true,
+        _ => is_comparison(*token),
+    }
+}
+
+fn is_comparison(token: Token) -> bool {
+    match token {
         Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ => true,
         _ => false,
     }
@@ -503,12 +522,7 @@ impl<'a> Context<'a> {
     }
 
     /// A statement whose right side, from `first` to `end`, is an expression.
-    fn expression(
-        &mut self,
-        start: u32,
-        number: Option<(u32, Span)>,
-        (first, end): (u32, u32),
-    ) -> Box<Statement> {
+    fn expression(&mut self, start: u32, number: Option<(u32, Span)>, (first, end): (u32, u32)) -> Box<Statement> {
         let place = self.span(first, end);
         self.depths.clear();
         if std::mem::take(&mut self.too_deep) {
@@ -641,13 +655,32 @@ impl<'a> Context<'a> {
         Expr::Number(Number::Int(0))
     }
 
-    /// Reports a line that cannot be parsed, and drops what the parser has gathered of it.
-    fn report(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
+    /// Reports a line of a program that cannot be parsed.
+    fn report_line(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
+        if !is_call(tokens, &error) {
+            return self.report(error, tokens);
+        }
+        let mut call = tokens.to_vec();
+        for lexeme in call.iter_mut().filter(|lexeme| lexeme.token == Token::Becomes) {
+            lexeme.token = Token::Equals;
+        }
+        self.forget();
+        let parsed = cfg::CfgLineParser::new().parse(self, call.iter().map(|l| Ok((l.start, l.token, l.end))));
+        self.report(parsed.err().unwrap_or(error), &call);
+    }
+
+    /// Drops what the parser has gathered of a line.
+    fn forget(&mut self) {
         self.outputs.clear();
         self.items.clear();
         self.terms.clear();
         self.depths.clear();
         self.too_deep = false;
+    }
+
+    /// Reports a line that cannot be parsed, and drops what the parser has gathered of it.
+    fn report(&mut self, error: ParseError<u32, Token, ()>, tokens: &[Lexeme]) {
+        self.forget();
         let (span, found, expected) = match error {
             ParseError::UnrecognizedToken { token: (start, Token::Newline, _), expected } => {
                 (self.span(start.saturating_sub(1), start), "the end of the line".to_owned(), expected)
@@ -672,7 +705,13 @@ impl<'a> Context<'a> {
             return;
         }
         let message = format!("expected {}, found {found}", list(&expected));
-        self.diagnostics.push(Diagnostic::new(codes::UNEXPECTED, span, message).help(form_help(tokens)));
+        let compares = tokens.iter().any(|lexeme| lexeme.start == span.start && is_comparison(lexeme.token));
+        let help = if compares && expected.iter().any(|token| token == "\"+\"" || token == "\"==\"") {
+            "comparisons do not follow one another: put one into parentheses"
+        } else {
+            form_help(tokens)
+        };
+        self.diagnostics.push(Diagnostic::new(codes::UNEXPECTED, span, message).help(help));
     }
 
     /// A reserved word, or a name that starts with `_`, where a name is due.
@@ -734,11 +773,23 @@ fn form_help(tokens: &[Lexeme]) -> &'static str {
     match tokens.first().map(|lexeme| lexeme.token) {
         Some(Token::Key(Key::Control)) => "a section is `CONTROL [n [offset]]`",
         Some(Token::Key(_)) => "a section word stands alone on its line",
+        _ if calls_in_expression(tokens) => {
+            "a call with `:` has a line of its own: give its output a name, and use that in the expression"
+        }
         _ if tokens.iter().any(|lexeme| lexeme.token == Token::Becomes) => {
             "a block is `[number] [outputs] = code ( inputs : parameters )`, or without `:` an expression"
         }
         _ => "a block is `[number] [outputs] = code ( inputs : parameters )`",
     }
+}
+
+/// Whether what stands between `=` and `:` looks like an expression.
+fn calls_in_expression(tokens: &[Lexeme]) -> bool {
+    let mut rest =
+        tokens.iter().map(|lexeme| lexeme.token).skip_while(|token| *token != Token::Equals).skip(1).peekable();
+    let operand = matches!(rest.peek(), Some(Token::LeftParen | Token::Int | Token::Real));
+    let call = rest.clone().any(|token| token == Token::LeftParen);
+    call && (operand || rest.take_while(|token| *token != Token::LeftParen).any(|token| is_sign(&token)))
 }
 
 /// A real in both widths, each converted once from the decimal text; `None` when it overflows a double or a float

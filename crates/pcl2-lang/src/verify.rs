@@ -87,7 +87,8 @@ fn verify_formula(program: &Program, decl: &Decl) -> Check {
                 let wanted: Vec<Scalar> = code.port_scalars().collect();
                 let rest = results.len().checked_sub(wanted.len());
                 let rest = rest.ok_or_else(|| Defect("an operator has too few operands".to_owned()))?;
-                let fits = results.drain(rest..).zip(&wanted).all(|(found, want)| found == *want || found == Scalar::Int);
+                let fits =
+                    results.drain(rest..).zip(&wanted).all(|(found, want)| found == *want || found == Scalar::Int);
                 require(fits, || format!("an operand of {} has the wrong type", code.name))?;
                 result_of(code)?
             }

@@ -629,8 +629,7 @@ fn check_operator(context: &mut Context<'_>, decl: &Decl) {
     let pure = decl.has_kernel() && decl.image.is_none() && !decl.simulated && decl.work.is_empty();
     let places = !decl.items.is_empty() && decl.items.iter().all(port) && decl.params.iter().all(param);
     if !(scalar && pure && places) {
-        let message =
-            "expected an INLINE code with scalar ports, parameters with defaults and one scalar output for OPERATOR, found another";
+        let message = "expected an INLINE code with scalar ports, parameters with defaults and one scalar output for OPERATOR, found another";
         complain(context, decl.span, message);
     }
     let sign = decl.operator.as_deref().unwrap_or_default();
@@ -639,7 +638,9 @@ fn check_operator(context: &mut Context<'_>, decl: &Decl) {
     match SIGNS.iter().find(|(known, _)| *known == sign) {
         Some((_, counts)) if counts.contains(&decl.ports().count()) => {}
         None if word => {}
-        Some(_) => complain(context, decl.span, format!("expected as many ports as `{sign}` has operands, found others")),
+        Some(_) => {
+            complain(context, decl.span, format!("expected as many ports as `{sign}` has operands, found others"))
+        }
         None => {
             let signs: Vec<&str> = SIGNS.iter().map(|(sign, _)| *sign).collect();
             let message = format!("expected a name or one of {} for OPERATOR, found `{sign}`", signs.join(" "));

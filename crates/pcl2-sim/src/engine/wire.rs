@@ -5,7 +5,9 @@ use super::place::{Body, Fill, NOWHERE, Node, Store, has_slot, width_of};
 use crate::ffi::{Function, Op, Plan, Slot, Tape};
 use pcl2_lang::decl::{Decl, PortDecl, Step, TypeExpr};
 use pcl2_lang::kernel::{self, Arg, Entry};
-use pcl2_lang::program::{Block, BlockId, DeclId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer};
+use pcl2_lang::program::{
+    Block, BlockId, DeclId, Program, Role, SectionKind, Signal, Source, Tracked, Unit, UnitId, Writer,
+};
 use pcl2_lang::types::{Real, Scalar, Shape, Type};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -319,7 +321,8 @@ impl<'a, 'b> Wiring<'a, 'b> {
         let result = self.output(block, decl, node, 0);
         let (mut inputs, mut first) = (Vec::new(), 0);
         for port in decl.ports() {
-            inputs.push((self.port(unit, block, port, &mut first, context)?, port.ty == TypeExpr::Scalar(Scalar::Real)));
+            inputs
+                .push((self.port(unit, block, port, &mut first, context)?, port.ty == TypeExpr::Scalar(Scalar::Real)));
         }
         let mut next = inputs.iter().copied();
         let mut results: Vec<(Slot, bool)> = Vec::new();
