@@ -266,11 +266,10 @@ fn choose(
     parts.wanted = known.to_vec();
     // Each result and, where it is an operand, which.
     let mut results: Vec<(Scalar, Option<usize>)> = Vec::new();
-    let mut next = 0;
+    let mut next = known.iter().copied().enumerate();
     for part in &mut parts.parts {
         let Part::Apply(name, codes) = part else {
-            results.push((known.get(next).copied().unwrap_or(Scalar::Real), Some(next)));
-            next += 1;
+            results.extend(next.next().map(|(operand, scalar)| (scalar, Some(operand))));
             continue;
         };
         let count = codes.first().map_or(0, |code| code.ports().count());

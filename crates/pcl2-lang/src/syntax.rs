@@ -389,10 +389,7 @@ fn is_sign(token: &Token) -> bool {
 }
 
 fn is_comparison(token: Token) -> bool {
-    match token {
-        Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ => true,
-        _ => false,
-    }
+    matches!(token, Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ)
 }
 
 fn unclosed_text(span: Span) -> Diagnostic {

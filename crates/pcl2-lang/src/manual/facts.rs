@@ -117,9 +117,10 @@ pub(super) fn rules(decl: &Decl) -> Vec<(&'static str, String)> {
     }
     match decl.operator.as_deref() {
         None => {}
-        Some("") => {
+        Some(word) if !word.starts_with(|first: char| first.is_ascii_punctuation()) => {
+            let name = if word.is_empty() { &decl.name } else { word };
             let ports: Vec<&str> = decl.ports().map(|port| port.name.as_str()).collect();
-            rules.push(("Expression", format!("`{}({})`, a function.", decl.name, ports.join(", "))));
+            rules.push(("Expression", format!("`{name}({})`, a function.", ports.join(", "))));
         }
         Some(sign) => rules.push(("Expression", format!("`{sign}`, an operator."))),
     }
