@@ -113,12 +113,16 @@ impl Catalogue {
         let own = Some(sign).filter(|sign| !sign.is_empty() && *sign != decl.name);
         for key in [decl.name.as_str()].into_iter().chain(own) {
             let same = self.operators(key).find(|other| other.port_scalars().eq(decl.port_scalars()));
-            if let Some(other) = same {
+            if let Some(other) = same.filter(|other| decl.user == other.user) {
                 let message = format!("expected one code for `{key}` over operands of the same types, found a second");
                 let report = Diagnostic::new(codes::BAD_DECLARATION, decl.span, message);
                 diagnostics.push(report.label(other.span, "the other one"));
             }
-            self.operators.entry(key.to_owned()).or_default().push(self.decls.len());
+            let same_ports = |i: &usize| self.decls[*i].port_scalars().eq(decl.port_scalars());
+            let known = self.operators.entry(key.to_owned()).or_default();
+            // One of the user's own wins.
+            known.retain(|i| !same_ports(i));
+            known.push(self.decls.len());
         }
     }
 
