@@ -59,7 +59,8 @@ impl Codes {
     pub fn program(&self, text: &str) -> String {
         replace(text, |before, word, after| {
             let line = before.rsplit('\n').next().unwrap_or_default();
-            let in_statement = line.contains('=') && !line.contains(['!', '"']);
+            let in_text = line.matches('"').count() % 2 == 1;
+            let in_statement = line.contains('=') && !line.contains('!') && !in_text;
             let called = in_statement && after.trim_start().starts_with('(');
             (called && self.codes.contains(word)).then(|| format!("{PREFIX}{word}"))
         })
