@@ -20,11 +20,21 @@ static inline int32_t pcl2_return_state(const pcl2_real *back)
     return back[1] < PCL2_R(1.5) ? PCL2_LIMITED_HIGH : back[1] < PCL2_R(2.5) ? PCL2_LIMITED_LOW : PCL2_WAITING;
 }
 
-/* Hands a value and a state back. */
+/* Hands a value and a state back; bk is NULL where nobody listens. */
 static inline void pcl2_hand_back(pcl2_real *bk, pcl2_real value, int32_t state)
 {
-    bk[0] = value;
-    bk[1] = (pcl2_real)state;
+    if (bk != NULL) {
+        bk[0] = value;
+        bk[1] = (pcl2_real)state;
+    }
+}
+
+/* Hands the followed value of a block on that changes nothing on the way: own is its own state, that of back goes on
+ * where it has none, and where back is limited its value is what is followed. */
+static inline void pcl2_hand_on(pcl2_real *bk, pcl2_real value, int32_t own, const pcl2_real *back)
+{
+    const int32_t told = pcl2_return_state(back);
+    pcl2_hand_back(bk, told == PCL2_FOLLOWING ? value : back[0], own == PCL2_FOLLOWING ? told : own);
 }
 
 /* The state as a block with a falling characteristic hands it back: a high limit downstream is a low one upstream. */
@@ -40,6 +50,25 @@ static inline int32_t pcl2_has_come(pcl2_real value, pcl2_real asked)
     const pcl2_real distance = value < asked ? asked - value : value - asked;
     const pcl2_real size = asked < PCL2_R(0.0) ? -asked : asked;
     return distance <= PCL2_R(1e-5) * (size + PCL2_R(1.0));
+}
+
+/* How many scans a waiting block gives its driver to come. */
+#define PCL2_PATIENCE 16
+
+/* Whether a block waits in this scan instead of following value: now, or since then until value has come to the one that
+ * it asked for, at most PCL2_PATIENCE scans. Where nobody listens (bk is NULL) there is nobody to wait for. */
+static inline int32_t pcl2_awaits(int32_t *patience, int32_t now, const pcl2_real *bk, pcl2_real value, pcl2_real asked)
+{
+    if (bk == NULL) {
+        return now;
+    }
+    if (now) {
+        *patience = PCL2_PATIENCE;
+    } else if (*patience > 0) {
+        *patience = pcl2_has_come(value, asked) ? 0 : *patience - 1;
+        now = *patience > 0;
+    }
+    return now;
 }
 
 #endif

@@ -5,9 +5,10 @@ use crate::draft::{Draft, Scope, Wire};
 use crate::formula::{self, Parts};
 use crate::sections::Sectioned;
 use crate::{Input, Tunable};
-use pcl2_lang::decl::Decl;
+use pcl2_lang::decl::{Decl, RETURN_OUTPUT};
+use pcl2_lang::model;
 use pcl2_lang::program::{
-    Block, DeclId, Delay, ImageId, ImageWord, Program, Section, SectionKind, Signal, Unit, UnitId,
+    Block, DeclId, Delay, ImageId, ImageWord, Program, Section, SectionKind, Signal, Source, Unit, UnitId,
 };
 use pcl2_lang::source::Span;
 use pcl2_lang::types::Type;
@@ -109,6 +110,7 @@ fn seal_unit(
     images: &mut ImageTable,
 ) -> Unit {
     let equals = equals(&scope);
+    let open = open_returns(&scope);
     let cells = scope.cells;
     let wires = &scope.wires;
     let blocks = scope.drafts.into_iter().enumerate().filter_map(|(index, draft)| {
@@ -133,8 +135,8 @@ fn seal_unit(
         })
     });
     let blocks = blocks.collect();
-    let signals = scope.wires.into_iter().map(|wire| Signal {
-        name: wire.name,
+    let signals = scope.wires.into_iter().zip(open).map(|(wire, open)| Signal {
+        name: if open { String::new() } else { wire.name },
         ty: wire.ty.unwrap_or(Type::REAL),
         writers: wire.writers,
         role: wire.role,
@@ -147,6 +149,46 @@ fn seal_unit(
         cells,
         outputs: scope.outputs,
     }
+}
+
+/// By wire: whether it is a return wire under its tag's name that nobody reads. There is no such signal then, and a
+/// loop that is closed on its valve pays nothing for it. A group has all its return wires or none.
+fn open_returns(scope: &Scope<'_>) -> Vec<bool> {
+    let answers = |draft: &Draft<'_>| draft.decl.is_some_and(|decl| decl.returns.is_some() && !decl.is_composite());
+    let mut open = vec![false; scope.wires.len()];
+    if !scope.drafts.iter().any(answers) {
+        return open;
+    }
+    let mut heard = vec![false; scope.wires.len()];
+    let sources = scope.drafts.iter().flat_map(|draft| &draft.sources);
+    let read = sources.filter_map(|source| match source {
+        Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
+        Source::Constant(_) | Source::Cell(_) => None,
+    });
+    for id in read.chain(scope.outputs.iter().copied()) {
+        heard[id.0 as usize] = true;
+    }
+    for draft in scope.drafts.iter().filter(|draft| answers(draft)) {
+        let Some(decl) = draft.decl else {
+            continue;
+        };
+        let sizes = draft.known_sizes().unwrap_or_default();
+        let is_return = |output: usize| {
+            model::output_decl(decl, &sizes, output).is_some_and(|index| decl.outputs[index].name == RETURN_OUTPUT)
+        };
+        let outputs = draft.outputs.iter().enumerate();
+        let returns: Vec<usize> = outputs.filter(|(i, _)| is_return(*i)).map(|(_, id)| id.0 as usize).collect();
+        let unheard = |id: &usize| {
+            let wire = &scope.wires[*id];
+            !heard[*id] && wire.writers.len() == 1 && (wire.name.is_empty() || wire.name.contains('.'))
+        };
+        if returns.iter().all(unheard) {
+            for id in returns {
+                open[id] = true;
+            }
+        }
+    }
+    open
 }
 
 /// The identity of a block: its first output's name or its number, and its place among equals.

@@ -90,7 +90,12 @@ fn memory_bytes(program: &Program, block: &pcl2_lang::program::Block) -> usize {
     let elements: usize = fields.filter_map(|field| kernel::field_elements(field, &block.sizes)).sum();
     let params = decl.params.iter().filter(|param| block.tunable && !param.fixed);
     let params: usize = params.filter_map(|param| kernel::resolve(&param.ty, &block.sizes)).map(Type::elements).sum();
-    let outputs: usize = block.outputs.iter().map(|id| program.main().signal(*id).ty.elements()).sum();
+    let heard = |i: &usize| {
+        let declared = pcl2_lang::model::output_decl(decl, &block.sizes, *i);
+        !declared.is_some_and(|declared| pcl2_lang::model::is_open(program.main(), block, decl, declared))
+    };
+    let outputs = (0..block.outputs.len()).filter(heard);
+    let outputs: usize = outputs.map(|i| program.main().signal(block.outputs[i]).ty.elements()).sum();
     (elements + params + outputs) * program.width.bytes()
 }
 

@@ -10,6 +10,7 @@ use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::decl::{Direction, ParamDecl, TypeExpr};
 use pcl2_lang::kernel::{Arg, Entry};
+use pcl2_lang::model;
 use pcl2_lang::program::{Block, BlockId, Param, Source, Unit, UnitId};
 use pcl2_lang::types::{Scalar, Type};
 use std::fmt::Write;
@@ -205,7 +206,8 @@ impl<'c, 'a> Call<'c, 'a> {
     /// An output that the kernel writes through a pointer.
     fn output(&self, out: &mut String, declared: usize) {
         let (code, shape) = (self.code(), self.shape());
-        if place_elements(&code.decl.outputs[declared].ty, &self.block().sizes) == 0 {
+        let open = model::is_open(self.body(), self.block(), code.decl, declared);
+        if open || place_elements(&code.decl.outputs[declared].ty, &self.block().sizes) == 0 {
             out.push_str("NULL");
             return;
         }

@@ -5,6 +5,7 @@ use crate::facts::{self, Facts, Scratch};
 use crate::names::Namer;
 use crate::shape::{self, Cold, Extent, Form, Key, Shape};
 use pcl2_lang::decl::{Direction, Step};
+use pcl2_lang::model;
 use pcl2_lang::program::{
     Block, DeclId, ImageId, Param, Program, Role, Section, SectionKind, Signal, SignalId, Source, Unit, UnitId,
 };
@@ -289,7 +290,7 @@ impl<'a, 'c> Builder<'a, 'c> {
             unit: block.unit,
             sizes: block.sizes.clone().into(),
             tunable: block.tunable && unit.composite.is_none(),
-            elsewhere: self.elsewhere(block, stores).into(),
+            elsewhere: self.elsewhere(unit, block, stores).into(),
         };
         self.intern(key, block)
     }
@@ -319,10 +320,11 @@ impl<'a, 'c> Builder<'a, 'c> {
         index
     }
 
-    /// The declared outputs that the call writes straight to their signal's own place.
-    fn elsewhere(&self, block: &Block, stores: &[Store]) -> Vec<u32> {
+    /// The declared outputs that the call writes straight to their signal's own place, and those that nobody hears.
+    fn elsewhere(&self, unit: &Unit, block: &Block, stores: &[Store]) -> Vec<u32> {
         let code = &self.codes[block.decl.0 as usize];
-        let mut elsewhere = Vec::new();
+        let open = |output: &u32| model::is_open(unit, block, code.decl, *output as usize);
+        let mut elsewhere: Vec<u32> = (0..code.decl.outputs.len() as u32).filter(open).collect();
         if block.unit.is_some() || !(code.decl.inline || code.decl.outputs.iter().any(|output| output.inout)) {
             return elsewhere;
         }

@@ -1,8 +1,8 @@
 //! The points of a program that have a name outside: what maps, monitors, stimulus and saved states speak of.
 
-use crate::decl::{Decl, Direction, PortDecl, Tail, TypeExpr};
+use crate::decl::{Decl, Direction, OutputDecl, PortDecl, RETURN_OUTPUT, Tail, TypeExpr};
 use crate::kernel;
-use crate::program::{Block, BlockId, CellId, DeclId, ImageId, Param, Program, Role, SignalId, UnitId};
+use crate::program::{Block, BlockId, CellId, DeclId, ImageId, Param, Program, Role, SignalId, Unit, UnitId};
 use crate::types::{Scalar, Type, Value};
 use rustc_hash::FxHashMap;
 
@@ -187,6 +187,18 @@ pub fn output_decl(decl: &crate::decl::Decl, sizes: &[i32], expanded: usize) -> 
         }
     }
     None
+}
+
+/// Whether a declared output is a return wire to which nobody listens: it has no place, and the kernel gets NULL for it.
+pub fn is_open(unit: &Unit, block: &Block, decl: &Decl, output: usize) -> bool {
+    let declared = &decl.outputs[output];
+    if decl.returns.is_none() || declared.name != RETURN_OUTPUT || block.unit.is_some() {
+        return false;
+    }
+    let count = |output: &OutputDecl| kernel::count(output.group.as_ref(), &block.sizes).unwrap_or(0);
+    let first: usize = decl.outputs[..output].iter().map(count).sum();
+    let signals = block.outputs.get(first..first + count(declared)).unwrap_or(&[]);
+    signals.iter().all(|signal| unit.signal(*signal).name.is_empty())
 }
 
 fn images(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {

@@ -4,6 +4,7 @@ use super::Unsupported;
 use crate::ffi::{Kernel, Op};
 use pcl2_lang::decl::{Decl, Field, TypeExpr};
 use pcl2_lang::kernel::{self, Member};
+use pcl2_lang::model;
 use pcl2_lang::program::{Block, DeclId, Param, Program, Role, Signal, UnitId};
 use pcl2_lang::types::{Real, Scalar, Type, Value, Width};
 
@@ -185,7 +186,7 @@ impl<'a> Store<'a> {
                 self.convert_starts.push(self.converts.len());
             }
             let params = self.params(unit, block, own)?;
-            nodes.push(self.node(block, params, &signals, depth)?);
+            nodes.push(self.node(unit, block, params, &signals, depth)?);
         }
         for (i, signal) in body.signals.iter().enumerate() {
             if let (false, [writer, ..]) = (has_slot(signal), signal.writers.as_slice()) {
@@ -195,9 +196,10 @@ impl<'a> Store<'a> {
         Ok(Body { unit, signals, nodes })
     }
 
-    /// Places one block.
+    /// Places one block of a unit.
     pub(crate) fn node(
         &mut self,
+        home: UnitId,
         block: &'a Block,
         params: Vec<usize>,
         signals: &[usize],
@@ -210,7 +212,7 @@ impl<'a> Store<'a> {
         let decl = self.program.decl(block.decl);
         match block.unit {
             Some(unit) => self.composite(block, decl, unit, params, signals, depth),
-            None => self.leaf(block, decl, params, signals),
+            None => self.leaf(home, block, decl, params, signals),
         }
     }
 
@@ -300,6 +302,7 @@ impl<'a> Store<'a> {
 
     fn leaf(
         &mut self,
+        home: UnitId,
         block: &'a Block,
         decl: &'a Decl,
         params: Vec<usize>,
@@ -330,7 +333,8 @@ impl<'a> Store<'a> {
         for (i, output) in decl.outputs.iter().enumerate() {
             let count = kernel::count(output.group.as_ref(), &block.sizes).unwrap_or(0);
             let ty = kernel::resolve(&output.ty, &block.sizes).unwrap_or(Type::REAL);
-            let bytes = self.type_bytes(ty);
+            let open = model::is_open(self.program.unit(home), block, decl, i);
+            let bytes = if open { 0 } else { self.type_bytes(ty) };
             let base = match member(Member::Output(i)) {
                 Some(at) => at,
                 None if output.inout => block.outputs.get(outputs.len()).map_or(NOWHERE, |id| signals[id.0 as usize]),

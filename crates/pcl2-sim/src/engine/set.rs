@@ -177,7 +177,7 @@ pub fn judge(program: &Verified) -> Vec<Refusal> {
         let Ok(params) = store.params(UnitId(0), block, &[]) else {
             return Vec::new();
         };
-        match store.node(block, params, &[], 0) {
+        match store.node(UnitId(0), block, params, &[], 0) {
             Ok(node) => nodes.push((BlockId(i as u32), node)),
             Err(_) => return Vec::new(),
         }
