@@ -45,7 +45,7 @@ static void casc_bad(struct pcl2_casc *self, pcl2_real wm)
 /* Without rate in the first scan. */
 static int32_t casc_follow(struct pcl2_casc *self, pcl2_real wr)
 {
-    const pcl2_real target = pcl2_within(wr, self->low, self->high);
+    const pcl2_real target = pcl2_limited(wr, self->low, self->high);
     const pcl2_real way = self->started ? self->way : PCL2_REAL_MAX;
     self->w = pcl2_approach(self->w, target, way, way);
     return pcl2_stopped(wr, self->w);

@@ -43,7 +43,7 @@ static void ma_bad(struct pcl2_ma *self, int32_t mode, pcl2_real um)
 /* Without rate in the first scan. */
 static int32_t ma_follow(struct pcl2_ma *self, pcl2_real uin)
 {
-    const pcl2_real target = pcl2_within(uin, self->low, self->high);
+    const pcl2_real target = pcl2_limited(uin, self->low, self->high);
     const pcl2_real way = self->started ? self->way : PCL2_REAL_MAX;
     self->u = pcl2_approach(self->u, target, way, way);
     return pcl2_stopped(uin, self->u);

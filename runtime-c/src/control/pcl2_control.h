@@ -20,7 +20,6 @@
 
 /* wait counts the scans that a master was waited for; this when it is followed. */
 #define PCL2_LINKED (-1)
-#define PCL2_PATIENCE 16
 
 /* u within lo..hi; lo for what is no number. */
 static inline pcl2_real pcl2_limited(pcl2_real u, pcl2_real lo, pcl2_real hi)

@@ -1,23 +1,13 @@
-/* What stations share: modes, limits, shedding. */
+/* What stations share: limits, rates, shedding. */
 #ifndef PCL2_STATION_H
 #define PCL2_STATION_H
 
-#include "pcl2_return.h"
-
-/* Modes: what the operator wants (the first three), and what is in force. */
-enum { PCL2_MAN = 0, PCL2_AUTO = 1, PCL2_CAS = 2, PCL2_TRACK = 3, PCL2_INIT = 4, PCL2_FAILED = 5 };
-
-/* x within low..high. */
-static inline pcl2_real pcl2_within(pcl2_real x, pcl2_real low, pcl2_real high)
-{
-    x = x > low ? x : low;
-    return x < high ? x : high;
-}
+#include "pcl2_control.h"
 
 /* x within low..high and, where that is good, else what was. */
 static inline pcl2_real pcl2_within_or(pcl2_real x, pcl2_real low, pcl2_real high, pcl2_real was)
 {
-    return pcl2_is_bad(x) ? was : pcl2_within(x, low, high);
+    return pcl2_is_bad(x) ? was : pcl2_limited(x, low, high);
 }
 
 /* The state of a block that stopped at y on its way to x. */
@@ -37,13 +27,6 @@ static inline pcl2_real pcl2_approach(pcl2_real y, pcl2_real x, pcl2_real up, pc
 static inline pcl2_real pcl2_way(pcl2_real rate, int64_t T)
 {
     return rate > PCL2_R(0.0) ? rate * pcl2_seconds(T) : PCL2_REAL_MAX;
-}
-
-/* A time in scans of T, as many as pass before it is over. */
-static inline int32_t pcl2_scans(pcl2_real seconds, int64_t T)
-{
-    const int64_t time = pcl2_nanoseconds(seconds);
-    return pcl2_saturate_i(time / T + (time % T != 0));
 }
 
 /* Counts the scans with a bad input: 1 when the time given to it is over. */

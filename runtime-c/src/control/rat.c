@@ -59,7 +59,7 @@ static int32_t rat_follow(struct pcl2_rat *self, pcl2_real wild, pcl2_real wante
     const int32_t limited = pcl2_stopped(wanted, self->k);
     const pcl2_real target = self->k * wild;
     const pcl2_real way = self->started ? self->way : PCL2_REAL_MAX;
-    self->w = pcl2_approach(self->w, pcl2_within(target, self->low, self->high), way, way);
+    self->w = pcl2_approach(self->w, pcl2_limited(target, self->low, self->high), way, way);
     const int32_t stopped = pcl2_stopped(target, self->w);
     if (limited != PCL2_FOLLOWING || !rat_tells(self, wild)) {
         return limited;
@@ -117,7 +117,7 @@ PCL2_KERNEL void pcl2_rat(struct pcl2_rat *self, pcl2_real wild, pcl2_real y, in
     }
     const int32_t waits = pcl2_awaits(&self->patience, bad || !remote, bk, kr, self->k);
     if (!waits) {
-        self->k = pcl2_within(kr, self->least, self->most);
+        self->k = pcl2_limited(kr, self->least, self->most);
     }
     const int32_t own = runs ? rat_follow(self, wild, waits ? self->k : kr) : PCL2_FOLLOWING;
     if (waits) {

@@ -37,13 +37,13 @@ static void spgen_track(struct pcl2_spgen *self, pcl2_real y)
     if (pcl2_is_bad(y)) {
         self->status = SPGEN_HELD;
     } else {
-        spgen_take(self, pcl2_within(y, self->low, self->high));
+        spgen_take(self, pcl2_limited(y, self->low, self->high));
     }
 }
 
 static int32_t spgen_follow(struct pcl2_spgen *self, pcl2_real w)
 {
-    self->target = pcl2_within(w, self->low, self->high);
+    self->target = pcl2_limited(w, self->low, self->high);
     self->v = self->started ? pcl2_approach(self->v, self->target, self->rise, self->fall) : self->target;
     self->started = 1;
     return pcl2_stopped(w, self->v);

@@ -16,9 +16,11 @@
  * y1:    y(t-1)
  * past:  Dy(t-1) .. Dy(t-na+1), Du(t-1) .. Du(t-nb+1-d)
  * gain:  kw, ky_0 .. ky_(na-1), ku_1 .. ku_(nb-1+d)
+ * asked: the set-point that the master was asked for; patience: the scans that it still has to come to it
  */
 #include "pcl2_gpc.h"
 #include "pcl2_math.h"
+#include "pcl2_return.h"
 
 /* The loops of a horizon of up to 16 vanish where the sizes are literals.  Clang wants to be told, and
  * warns where they are not. */
@@ -47,6 +49,10 @@ struct pcl2_gpc_state {
     int32_t *status;
     pcl2_real *u;         /* the output, u(t-1) until it is written */
     pcl2_real *model, *gain, *past, *work;
+    pcl2_real *asked;
+    int32_t *patience;
+    const pcl2_real *back; /* from what u drives */
+    pcl2_real *bk;         /* to what drives w; NULL where nobody listens */
 };
 
 /* A NaN ends at umin, an infinity at its own side. */
@@ -324,6 +330,35 @@ PCL2_INLINE void pcl2_gpc_start(struct pcl2_gpc_state at, pcl2_real y)
     }
 }
 
+/* u as it was followed, and its last increment. */
+PCL2_INLINE void pcl2_gpc_followed(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real u)
+{
+    if (z.nb - 1 + z.d > 0) {
+        at.past[pcl2_gpc_kept(z)] += u - *at.u;
+    }
+    *at.u = u;
+}
+
+/* The master hears that w is not followed, and to which set-point it shall come: y. */
+PCL2_INLINE void pcl2_gpc_ask(struct pcl2_gpc_state at, pcl2_real w)
+{
+    if (at.bk != NULL && *at.started == 0) {
+        pcl2_hand_back(at.bk, w, PCL2_FOLLOWING);
+    } else if (at.bk != NULL) {
+        *at.asked = *at.y1;
+        *at.patience = PCL2_PATIENCE;
+        pcl2_hand_back(at.bk, *at.asked, PCL2_WAITING);
+    }
+}
+
+/* The master hears that w is in force, and whether a move to either side would be seen at u. */
+PCL2_INLINE void pcl2_gpc_answer(struct pcl2_gpc_state at, pcl2_real w, pcl2_real wanted, int32_t told)
+{
+    const int32_t own = wanted > *at.u ? PCL2_LIMITED_HIGH : wanted < *at.u ? PCL2_LIMITED_LOW : PCL2_FOLLOWING;
+    const int32_t state = own == PCL2_FOLLOWING ? told : own;
+    pcl2_hand_back(at.bk, w, at.gain[0] < PCL2_R(0.0) ? pcl2_return_reversed(state) : state);
+}
+
 /* Manual: u follows u0, a bad y is taken as unchanged. */
 PCL2_INLINE void pcl2_gpc_manual(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real y, pcl2_real u)
 {
@@ -334,6 +369,15 @@ PCL2_INLINE void pcl2_gpc_manual(struct pcl2_gpc_size z, struct pcl2_gpc_state a
     pcl2_gpc_apply(z, at, u);
 }
 
+/* What is driven waits: u goes there, and nothing has moved. */
+PCL2_INLINE void pcl2_gpc_begin(struct pcl2_gpc_size z, struct pcl2_gpc_state at, pcl2_real y)
+{
+    pcl2_gpc_manual(z, at, y, at.back[0]);
+    for (int32_t i = pcl2_gpc_kept(z); i < pcl2_gpc_kept(z) + z.nb - 1 + z.d; ++i) {
+        at.past[i] = PCL2_R(0.0);
+    }
+}
+
 /* One scan.  umin and umax bound the applied increment, which is what enters the history.  A bad w or y
  * shows in the differences that the law takes, and so does one that would overflow them.  y enters the
  * history before u is known: else gcc stores both at once and the next scan waits for that. */
@@ -341,14 +385,27 @@ PCL2_INLINE void pcl2_gpc_scan(struct pcl2_gpc_size z, struct pcl2_gpc_state at,
                           const pcl2_real *p, pcl2_real sw, pcl2_real u0, pcl2_real umin,
                           pcl2_real umax, pcl2_real lambda)
 {
+    const int32_t told = pcl2_return_state(at.back);
     *at.status = GPC_OK;
+    if (PCL2_RARELY(told == PCL2_WAITING)) {
+        pcl2_gpc_begin(z, at, y);
+        pcl2_gpc_ask(at, w);
+        return;
+    }
     if (sw != PCL2_R(0.0) && !pcl2_is_bad(sw)) {
         pcl2_gpc_manual(z, at, y, pcl2_gpc_clamp(u0, umin, umax));
+        pcl2_gpc_ask(at, w);
         return;
     }
     if (pcl2_is_bad((w - y) + (y - *at.y1))) {
         *at.status = GPC_SIGNAL;
+        pcl2_gpc_ask(at, w);
         return;
+    }
+    const int32_t waits = pcl2_awaits(at.patience, 0, at.bk, w, *at.asked);
+    w = waits ? *at.asked : w;
+    if (PCL2_RARELY(told != PCL2_FOLLOWING) && (told == PCL2_LIMITED_HIGH ? at.back[0] < *at.u : at.back[0] > *at.u)) {
+        pcl2_gpc_followed(z, at, at.back[0]);
     }
     if (PCL2_RARELY(lambda != *at.designed || pcl2_gpc_changed(z.na + z.nb, p, at.model))) {
         pcl2_gpc_start(at, y);
@@ -357,11 +414,17 @@ PCL2_INLINE void pcl2_gpc_scan(struct pcl2_gpc_size z, struct pcl2_gpc_state at,
     const pcl2_real u = pcl2_gpc_law(z, at, w, y);
     pcl2_gpc_measured(z, at, y);
     pcl2_gpc_apply(z, at, pcl2_gpc_clamp(u, umin, umax));
+    if (waits) {
+        pcl2_hand_back(at.bk, w, PCL2_WAITING);
+    } else if (at.bk != NULL) {
+        pcl2_gpc_answer(at, w, u, told);
+    }
 }
 
 PCL2_KERNEL void pcl2_gpc1_init(struct pcl2_gpc1 *self, int32_t d, int32_t N2, int32_t Nu,
                                 pcl2_real u0, pcl2_real umin, pcl2_real umax, pcl2_real lambda,
-                                pcl2_real *model, pcl2_real *gain, pcl2_real *past)
+                                pcl2_real *model, pcl2_real *gain, pcl2_real *past,
+                                pcl2_real *bk)
 {
     (void)d;
     (void)N2;
@@ -372,24 +435,26 @@ PCL2_KERNEL void pcl2_gpc1_init(struct pcl2_gpc1 *self, int32_t d, int32_t N2, i
     (void)model;
     (void)gain;
     (void)past;
+    (void)bk;
     self->designed = PCL2_R(-1.0);
     self->u = u0;
 }
 
 PCL2_KERNEL void pcl2_gpc1(struct pcl2_gpc1 *self, pcl2_real w, pcl2_real y, const pcl2_real *p, pcl2_real sw,
-                           int32_t d, int32_t N2, int32_t Nu, pcl2_real u0,
+                           int32_t d, int32_t N2, int32_t Nu, const pcl2_real *back, pcl2_real u0,
                            pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
-                           pcl2_real *gain, pcl2_real *past, pcl2_real *work)
+                           pcl2_real *gain, pcl2_real *past, pcl2_real *work, pcl2_real *bk)
 {
     const struct pcl2_gpc_size size = {1, 1, d, N2, Nu};
     const struct pcl2_gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
-                                 model, gain, past, work};
+                                 model, gain, past, work, &self->asked, &self->patience, back, bk};
     pcl2_gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
 PCL2_KERNEL void pcl2_gpc2_init(struct pcl2_gpc2 *self, int32_t d, int32_t N2, int32_t Nu,
                                 pcl2_real u0, pcl2_real umin, pcl2_real umax, pcl2_real lambda,
-                                pcl2_real *model, pcl2_real *gain, pcl2_real *past)
+                                pcl2_real *model, pcl2_real *gain, pcl2_real *past,
+                                pcl2_real *bk)
 {
     (void)d;
     (void)N2;
@@ -400,24 +465,26 @@ PCL2_KERNEL void pcl2_gpc2_init(struct pcl2_gpc2 *self, int32_t d, int32_t N2, i
     (void)model;
     (void)gain;
     (void)past;
+    (void)bk;
     self->designed = PCL2_R(-1.0);
     self->u = u0;
 }
 
 PCL2_KERNEL void pcl2_gpc2(struct pcl2_gpc2 *self, pcl2_real w, pcl2_real y, const pcl2_real *p, pcl2_real sw,
-                           int32_t d, int32_t N2, int32_t Nu, pcl2_real u0,
+                           int32_t d, int32_t N2, int32_t Nu, const pcl2_real *back, pcl2_real u0,
                            pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
-                           pcl2_real *gain, pcl2_real *past, pcl2_real *work)
+                           pcl2_real *gain, pcl2_real *past, pcl2_real *work, pcl2_real *bk)
 {
     const struct pcl2_gpc_size size = {2, 2, d, N2, Nu};
     const struct pcl2_gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
-                                 model, gain, past, work};
+                                 model, gain, past, work, &self->asked, &self->patience, back, bk};
     pcl2_gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
 PCL2_KERNEL void pcl2_gpcn_init(struct pcl2_gpcn *self, int32_t d, int32_t nA, int32_t nB, int32_t N2, int32_t Nu,
                                 pcl2_real u0, pcl2_real umin, pcl2_real umax, pcl2_real lambda,
-                                pcl2_real *model, pcl2_real *gain, pcl2_real *past)
+                                pcl2_real *model, pcl2_real *gain, pcl2_real *past,
+                                pcl2_real *bk)
 {
     (void)d;
     (void)nA;
@@ -430,18 +497,19 @@ PCL2_KERNEL void pcl2_gpcn_init(struct pcl2_gpcn *self, int32_t d, int32_t nA, i
     (void)model;
     (void)gain;
     (void)past;
+    (void)bk;
     self->designed = PCL2_R(-1.0);
     self->u = u0;
 }
 
 PCL2_KERNEL void pcl2_gpcn(struct pcl2_gpcn *self, pcl2_real w, pcl2_real y, const pcl2_real *p, pcl2_real sw,
-                           int32_t d, int32_t nA, int32_t nB, int32_t N2, int32_t Nu, pcl2_real u0,
-                           pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
-                           pcl2_real *gain, pcl2_real *past, pcl2_real *work)
+                           int32_t d, int32_t nA, int32_t nB, int32_t N2, int32_t Nu, const pcl2_real *back,
+                           pcl2_real u0, pcl2_real umin, pcl2_real umax, pcl2_real lambda, pcl2_real *model,
+                           pcl2_real *gain, pcl2_real *past, pcl2_real *work, pcl2_real *bk)
 {
     const struct pcl2_gpc_size size = {nA - 1, nB, d, N2, Nu};
     const struct pcl2_gpc_state at = {&self->designed, &self->y1, &self->started, &self->status, &self->u,
-                                 model, gain, past, work};
+                                 model, gain, past, work, &self->asked, &self->patience, back, bk};
     pcl2_gpc_scan(size, at, w, y, p, sw, u0, umin, umax, lambda);
 }
 
