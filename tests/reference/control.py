@@ -7,6 +7,7 @@ import math
 import random
 
 import golden
+import gpc
 
 T = 0.25
 NAN = math.nan
@@ -380,6 +381,92 @@ class Three:
         self.bk = (clamp(u, 0.0, 100.0), HIGH if u > 100 else LOW if u < 0 else FOLLOWING)
 
 
+class Predictive(gpc.Gpc):
+    """gpc* with its return wires; rises: a larger set-point asks for a larger u."""
+
+    def __init__(self, rises, *sizes):
+        super().__init__(*sizes)
+        self.rises, self.patience, self.asked, self.bk = rises, Patience(True), 0.0, (0.0, 0)
+
+    def ask(self, w):
+        if self.y is None:
+            self.bk = (w, FOLLOWING)
+        else:
+            self.asked = self.y[0]
+            self.patience.wait(True, w, self.asked)
+            self.bk = (self.asked, WAITING)
+
+    def answer(self, w, y, p, sw, u0, umin, umax, lam, back):
+        state = told(back)
+        if state == WAITING:
+            if good(y):
+                self.y = [y] + (self.y[:-1] if self.y else [y] * self.na)
+            else:
+                self.y = self.y and [self.y[0]] + self.y[:-1]
+            self.u, self.du = back[0], 0 * self.du
+            return self.ask(w)
+        if sw or not good(w) or not good(y):
+            self.scan(w, y, p, sw, u0, umin, umax, lam)
+            return self.ask(w)
+        waits = self.patience.wait(False, w, self.asked)
+        w = self.asked if waits else w
+        if (state == HIGH and back[0] < self.u) or (state == LOW and back[0] > self.u):
+            self.du[0] += back[0] - self.u
+            self.u = back[0]
+        past = ([y] + self.y[:-1] if self.y else None, self.u)
+        self.y = self.y or [y] * (self.na + 1)
+        wanted = past[1] + self.first_move(w, y, p, lam)
+        self.scan(w, y, p, 0.0, u0, umin, umax, lam)
+        own = beyond(wanted, self.u)
+        final = own or state
+        self.bk = (w, WAITING if waits else final if self.rises else mirrored(final))
+
+
+class Digital:
+    """gdc."""
+
+    def __init__(self, a, b, d, lo, hi):
+        self.a, self.b, self.d, self.lo, self.hi = a, b, d, lo, hi
+        self.e = None
+        self.past, self.ff, self.y, self.asked = [0.0] * len(a), 0.0, 0.0, 0.0
+        self.u, self.actual, self.bk, self.patience = 0.0, 0, (0.0, 0), Patience(True)
+
+    def place(self, u):
+        self.u, self.past = u, [u - self.ff] * len(self.a)
+
+    def scan(self, y, w, trk, rel, ff, back):
+        state, seen = told(back), good(w) and good(y)
+        self.ff = ff if good(ff) else self.ff
+        free = rel != 0 and state != WAITING
+        if seen and self.e is None:
+            self.e = [w - y] * (len(self.b) + self.d)
+            self.place(clamp(trk if good(trk) else self.lo, self.lo, self.hi))
+        self.y = y if seen else self.y
+        waits = self.patience.wait(not seen or not free, w, self.asked)
+        if seen:
+            w = self.asked if waits and free else w
+            self.e = [w - y] + self.e[:-1]
+        if state == WAITING:
+            self.place(back[0])
+            self.actual = INIT
+        elif not rel:
+            self.place(clamp(trk, self.lo, self.hi) if good(trk) else self.u)
+            self.actual = TRACK
+        if not seen or not free:
+            self.asked = self.y
+            self.bk = (w, FOLLOWING) if self.e is None else (self.y, WAITING)
+            self.patience.left = 0 if self.e is None else 16
+            return
+        self.actual = AUTO
+        if (state == HIGH and back[0] < self.u) or (state == LOW and back[0] > self.u):
+            self.past[0] += back[0] - self.u
+        v = sum(b * e for b, e in zip(self.b, self.e[self.d:])) - sum(a * u for a, u in zip(self.a, self.past)) + self.ff
+        self.u = clamp(v, self.lo, self.hi)
+        self.past = [self.u - self.ff] + self.past[:-1]
+        final = beyond(v, self.u) or state
+        self.bk = (w, WAITING if waits else final if sum(self.b) > 0 else mirrored(final))
+
+
 class Chance:
     """Repeatable choices; numbers are multiples of 1/8, the same in both widths."""
 
@@ -635,7 +722,70 @@ END
                  single=(1e-5, "percent of a stroke in floats"))
 
 
+def prediction():
+    chance, rows, trace = Chance(6), [], []
+    up, down = [0.8, 0.4], [1.2, -0.4, -0.1, -0.05]
+    a, b = Predictive(True, 1, 1, 2, 8, 1, 0.5), Predictive(False, 2, 2, 1, 9, 2, 0.0)
+    w, y, sw, back = 1.0, 0.5, 0.0, (0.0, 0)
+    for k in range(500):
+        w = chance.one(a.asked, b.asked) if chance.often(0.2) else chance.walk(w, -3, 3, 0.02)
+        y = chance.walk(y, -2, 2, 0.03)
+        sw = chance.one(0.0, 1.0) if chance.often(0.05) else sw
+        back = chance.back(back, -3, 3)
+        a.answer(w, y, up, sw, 0.5, -4.0, 4.0, 0.1, back)
+        b.answer(w, y, down, sw, 0.0, -6.0, 5.0, 0.3, back)
+        rows.append([k, w, y, sw, *back])
+        trace.append([k, a.u, *a.bk, b.u, *b.bk])
+    program = "! Predictive controllers between a master and a return wire in all states; b has a negative gain.\n" + WIRE.strip() + """
+6 w = ain ( : 0, 1, 1 )
+7 y = ain ( : 0, 1, 2 )
+8 sw = ain ( : 0, 1, 3 )
+9 p = setvec ( 2 : 0.8, 0.4 )
+10 q = setvec ( 4 : 1.2, -0.4, -0.1, -0.05 )
+11 a, abk = gpc1 ( w, y, p, sw, 2, 8, 1, back : 0.5, -4., 4., 0.1 )
+12 b, bbk = gpcn ( w, y, q, sw, 1, 3, 2, 9, 2, back : 0., -6., 5., 0.3 )
+END
+"""
+    golden.write("control_prediction", program, (["ain(0,1,1)", "ain(0,1,2)", "ain(0,1,3)"] + WIRE_INPUTS, rows),
+                 (["a", *pair("abk"), "b", *pair("bbk")], trace),
+                 "numpy's solver and another order of the sums", period=T,
+                 single=(1e-3, "the law's gain on the noise of a float signal"))
+
+
+def digital():
+    chance, rows, trace = Chance(7), [], []
+    a = Digital([-1.5, 0.5], [2.0, -3.0, 1.25], 1, 0.0, 100.0)
+    b = Digital([-1.0], [-0.5, 0.25], 0, -20.0, 80.0)
+    w, y, trk, ff, rel, back = 50.0, 45.0, 20.0, 0.0, 1, (0.0, 0)
+    for k in range(500):
+        w = chance.one(a.asked, b.asked) if chance.often(0.2) else chance.walk(w, 40, 60, 0.02)
+        y, trk, ff = chance.walk(y, 40, 60, 0.03), chance.walk(trk, -5, 90), chance.walk(ff, -4, 8)
+        rel = 1 - rel if chance.often(0.05 if rel else 0.2) else rel
+        back = chance.back(back, 0, 80)
+        a.scan(y, w, trk, rel, ff, back)
+        b.scan(y, w, trk, rel, 0.0, back)
+        rows.append([k, w, y, trk, ff, rel, *back])
+        trace.append([k, a.u, a.actual, *a.bk, b.u, b.actual, *b.bk])
+    program = "! Digital controllers with an integrator, tracked and released, between a master and a return wire.\n"
+    program += WIRE.strip() + """
+6 w = ain ( : 0, 1, 1 )
+7 y = ain ( : 0, 1, 2 )
+8 trk = ain ( : 0, 1, 3 )
+9 ff = ain ( : 0, 1, 4 )
+10 rel = msi ( : 1 )
+11 a, aact, abk = gdc ( y, w, trk, rel, ff, 2, 3, 1, back : -1.5, 0.5, 2., -3., 1.25, , )
+12 b, bact, bbk = gdc ( y, w, trk, rel, , 1, 2, 0, back : -1., -0.5, 0.25, -20., 80. )
+END
+"""
+    inputs = [f"ain(0,1,{i})" for i in (1, 2, 3, 4)] + ["rel.value"] + WIRE_INPUTS
+    golden.write("control_digital", program, (inputs, rows),
+                 (["a", "aact", *pair("abk"), "b", "bact", *pair("bbk")], trace),
+                 "the order of sums", period=T, single=(1e-4, "an integrator of floats"))
+
+
 if __name__ == "__main__":
+    digital()
+    prediction()
     stations()
     ratio()
     sums()

@@ -152,7 +152,7 @@ fn seal_unit(
 }
 
 /// By wire: whether it is a return wire under its tag's name that nobody reads. There is no such signal then, and a
-/// loop that is closed on its valve pays nothing for it. A group has all its return wires or none.
+/// loop that is closed on its valve pays nothing for it.
 fn open_returns(scope: &Scope<'_>) -> Vec<bool> {
     let answers = |draft: &Draft<'_>| draft.decl.is_some_and(|decl| decl.returns.is_some() && !decl.is_composite());
     let mut open = vec![false; scope.wires.len()];
@@ -173,19 +173,12 @@ fn open_returns(scope: &Scope<'_>) -> Vec<bool> {
             continue;
         };
         let sizes = draft.known_sizes().unwrap_or_default();
-        let is_return = |output: usize| {
-            model::output_decl(decl, &sizes, output).is_some_and(|index| decl.outputs[index].name == RETURN_OUTPUT)
-        };
-        let outputs = draft.outputs.iter().enumerate();
-        let returns: Vec<usize> = outputs.filter(|(i, _)| is_return(*i)).map(|(_, id)| id.0 as usize).collect();
-        let unheard = |id: &usize| {
-            let wire = &scope.wires[*id];
-            !heard[*id] && wire.writers.len() == 1 && (wire.name.is_empty() || wire.name.contains('.'))
-        };
-        if returns.iter().all(unheard) {
-            for id in returns {
-                open[id] = true;
-            }
+        for (i, id) in draft.outputs.iter().enumerate() {
+            let declared = model::output_decl(decl, &sizes, i).map(|index| &decl.outputs[index]);
+            let returns = declared.is_some_and(|output| output.name == RETURN_OUTPUT && output.group.is_none());
+            let wire = scope.wire(*id);
+            let own_name = !wire.name.is_empty() && !wire.name.contains('.');
+            open[id.0 as usize] = returns && !heard[id.0 as usize] && wire.writers.len() == 1 && !own_name;
         }
     }
     open

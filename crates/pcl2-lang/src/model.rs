@@ -190,15 +190,15 @@ pub fn output_decl(decl: &crate::decl::Decl, sizes: &[i32], expanded: usize) -> 
 }
 
 /// Whether a declared output is a return wire to which nobody listens: it has no place, and the kernel gets NULL for it.
+/// The return wires of a group are always there.
 pub fn is_open(unit: &Unit, block: &Block, decl: &Decl, output: usize) -> bool {
     let declared = &decl.outputs[output];
-    if decl.returns.is_none() || declared.name != RETURN_OUTPUT || block.unit.is_some() {
+    if decl.returns.is_none() || declared.name != RETURN_OUTPUT || declared.group.is_some() || block.unit.is_some() {
         return false;
     }
     let count = |output: &OutputDecl| kernel::count(output.group.as_ref(), &block.sizes).unwrap_or(0);
-    let first: usize = decl.outputs[..output].iter().map(count).sum();
-    let signals = block.outputs.get(first..first + count(declared)).unwrap_or(&[]);
-    signals.iter().all(|signal| unit.signal(*signal).name.is_empty())
+    let expanded: usize = decl.outputs[..output].iter().map(count).sum();
+    block.outputs.get(expanded).is_some_and(|signal| unit.signal(*signal).name.is_empty())
 }
 
 fn images(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {

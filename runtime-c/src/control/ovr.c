@@ -27,7 +27,7 @@ static int32_t ovr_select(const pcl2_real *x, int32_t n, int32_t high)
 /* All wait for u. */
 static void ovr_wait(const struct pcl2_ovr *self, int32_t n, pcl2_real *bk)
 {
-    for (int32_t i = 0; bk != NULL && i < n; ++i) {
+    for (int32_t i = 0; i < n; ++i) {
         pcl2_hand_back(bk + 2 * i, self->u, PCL2_WAITING);
     }
 }
@@ -50,7 +50,7 @@ PCL2_KERNEL void pcl2_ovr(struct pcl2_ovr *self, const pcl2_real *x, int32_t n, 
     self->u = selected;
     const pcl2_real followed = told == PCL2_FOLLOWING ? selected : back[0];
     const int32_t limited = kind != 0 ? PCL2_LIMITED_LOW : PCL2_LIMITED_HIGH;
-    for (int32_t i = 0; bk != NULL && i < n; ++i) {
+    for (int32_t i = 0; i < n; ++i) {
         pcl2_hand_back(bk + 2 * i, followed, i == best ? told : limited);
     }
 }
