@@ -481,7 +481,7 @@ CONTROL
 2 trk = msi ( : 0 )
 3 xt = ain ( : 0, 1, 2 )
 4 back = setvec ( 2 : 0., 0. )
-5 L = ratelim ( x, trk, xt, back : 2., 5. )
+5 L, lim, bk = ratelim ( x, trk, xt, back : 2., 5. )
 6 slow = ratelim ( x : 0.01, 0. )
 END
 """
@@ -508,7 +508,7 @@ END
         trace.append([k, y or 0.0, lim] + bk + [slow or 0.0])
     golden.write("rate_limiters", program,
                  (["ain(0,1,1)", "trk.value", "ain(0,1,2)", "back.v[1]", "back.v[2]", "L.up"], stimulus),
-                 (["L", "L.lim", "L.bk[1]", "L.bk[2]", "slow"], trace), "another order of the sums", period=period)
+                 (["L", "lim", "bk[1]", "bk[2]", "slow"], trace), "another order of the sums", period=period)
 
 
 def by_section():
