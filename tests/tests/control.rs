@@ -42,7 +42,8 @@ fn a_station_goes_to_manual_and_back_without_a_bump_in_a_settled_loop() {
 
 #[test]
 fn a_station_goes_to_manual_and_back_without_a_bump_in_a_moving_loop() {
-    let sets = "--period 0.1 --until 40 --set TIC.w=50@10 --set HIC.mode=man@12 --set HIC.um=70@13 --set HIC.mode=auto@15";
+    let sets =
+        "--period 0.1 --until 40 --set TIC.w=50@10 --set HIC.mode=man@12 --set HIC.um=70@13 --set HIC.mode=auto@15";
     let trace = trace(STATION, sets, None);
     let (u, y) = (trace.values("HIC"), trace.values("T1"));
     assert_eq!(ulps(u[120], u[119]), 0, "to manual");
@@ -77,7 +78,8 @@ fn the_loser_of_an_override_does_not_wind_up() {
 fn a_feed_forward_goes_on_and_off_without_a_bump() {
     let program = "CONTROL\n1 u = msc ( : 40. )\n2 ff = msc ( : 12.3 )\n3 on = msi ( : 0 )\n\
                    4 y = ffsum ( u, ff, on : k = 0.7, bias = 1., tb = 5. )\nEND\n";
-    let trace = trace(program, "--period 0.1 --until 40 --set on.value=1@10 --set on.value=0@20 --set y.k=0.9@30", None);
+    let trace =
+        trace(program, "--period 0.1 --until 40 --set on.value=1@10 --set on.value=0@20 --set y.k=0.9@30", None);
     let y = trace.values("y");
     for scan in [100, 200, 300] {
         assert!((y[scan] - y[scan - 1]).abs() < 1e-12, "scan {scan}: {} after {}", y[scan], y[scan - 1]);
@@ -91,7 +93,8 @@ fn a_feed_forward_goes_on_and_off_without_a_bump() {
 #[test]
 fn a_ratio_begins_with_the_one_that_there_is() {
     let program = "CONTROL\n1 wild = msc ( : 23.7 )\n2 FY = rat ( wild : )\nEND\n";
-    let sets = "--period 0.1 --until 10 --set FY.mode=man@0 --set FY.wm=61.3@2 --set FY.mode=auto@5 --set wild.value=20@7";
+    let sets =
+        "--period 0.1 --until 10 --set FY.mode=man@0 --set FY.wm=61.3@2 --set FY.mode=auto@5 --set wild.value=20@7";
     let trace = trace(program, sets, None);
     let (w, k) = (trace.values("FY"), trace.values("FY.k"));
     assert!(w[20..70].iter().all(|w| ulps(*w, 61.3) <= 1), "{w:?}");
