@@ -292,8 +292,8 @@ def returns():
     value = np.round(rng.uniform(5.0, 95.0, steps), 2)
     state = rng.integers(0, 4, steps)
     names = ["L", "H", "W", "S1", "S2"]
-    columns = {f"{block}[{e}]": [] for block in ["L.bk", "H.bk1", "H.bk2", "W.bk1", "W.bk2", "S.bk"] for e in (1, 2)}
-    columns.update({"S": [], "S.y2": []})
+    columns = {f"{block}[{e}]": [] for block in ["Lbk", "H.bk1", "H.bk2", "W.bk1", "W.bk2", "Sbk"] for e in (1, 2)}
+    columns.update({"S": [], "S2": []})
     assert names
 
     def put(name, pair):
@@ -303,7 +303,7 @@ def returns():
     for u, v, f, st in zip(x, z, value, state):
         clamped = min(max(u, 20.0), 80.0)
         own = 1 if u > 80.0 else 2 if u < 20.0 else 0
-        put("L.bk", (f, st) if st else (clamped, own))
+        put("Lbk", (f, st) if st else (clamped, own))
         for block, best, limit in [("H", max(u, v), 2), ("W", min(u, v), 1)]:
             followed = f if st else best
             for port, signal in [("bk1", u), ("bk2", v)]:
@@ -313,18 +313,18 @@ def returns():
         cool = float(np.interp(u, [0.0, 45.0], [100.0, 0.0]))
         heat = float(np.interp(u, [55.0, 100.0], [0.0, 100.0]))
         columns["S"].append(cool)
-        columns["S.y2"].append(heat)
+        columns["S2"].append(heat)
         mapped = float(np.interp(f, [0.0, 100.0], [55.0, 100.0]))
         up = (u < 45.0) or (u < 100.0 and st != 1)
         down = (u > 0.0) or (u > 55.0 and st != 2)
         inside = 55.0 <= u <= 100.0 and st in (1, 2)
         hull = min(max(u, 0.0), 100.0)
         if st == 3:
-            put("S.bk", (mapped, 3))
+            put("Sbk", (mapped, 3))
         elif up and down:
-            put("S.bk", (hull, 0))
+            put("Sbk", (hull, 0))
         else:
-            put("S.bk", (mapped if inside else hull, 2 if up else 1))
+            put("Sbk", (mapped if inside else hull, 2 if up else 1))
     write("limits_returns", "Return wires of a limit, selectors and a split range.", """
 1 x = ain ( : 0, 1, 1 )
 2 z = ain ( : 0, 1, 2 )
@@ -332,10 +332,10 @@ def returns():
 4 state = ain ( : 0, 1, 4 )
 5 back = ftov ( 2, value, 1 : )
 6 back = ftov ( 2, state, 2 : )
-7 L = hilim ( x, back : 20., 80. )
+7 L, flag, Lbk = hilim ( x, back : 20., 80. )
 9 H = hisel ( x, z, 2, back = back : )
 11 W = losel ( x, z, 2, back = back : )
-13 S = split ( x, 2, back2 = back : 0., 55., 45., 100., 100., 0., 0., 100. )
+13 S, S2, Sbk = split ( x, 2, back2 = back : 0., 55., 45., 100., 100., 0., 0., 100. )
 """, {"ain(0,1,1)": x.tolist(), "ain(0,1,2)": z.tolist(), "ain(0,1,3)": value.tolist(), "ain(0,1,4)": state.tolist()},
           columns, "numpy's interpolation")
 
