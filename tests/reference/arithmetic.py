@@ -107,8 +107,8 @@ CONTROL
 4 state = msc ( : 0. )
 5 back = ftov ( 2, value, 1 : )
 6 back = ftov ( 2, state, 2 : )
-7 S = scale ( x, back = back : 4., 20., 100., 0., )
-8 U = scale ( x, back = back : 4., 20., -50., 150., off )
+7 S, Sbk = scale ( x, back = back : 4., 20., 100., 0., )
+8 U, Ubk = scale ( x, back = back : 4., 20., -50., 150., off )
 END
 """
     turned = {0: 0, 1: 2, 2: 1, 3: 3}
@@ -124,7 +124,7 @@ END
             other = [x, 0]
         stimulus.append([k, float(x), float(value), float(state)])
         trace.append([k, falling] + [float(v) for v in own] + [rising] + [float(v) for v in other])
-    header = ["S", "S.bk[1]", "S.bk[2]", "U", "U.bk[1]", "U.bk[2]"]
+    header = ["S", "Sbk[1]", "Sbk[2]", "U", "Ubk[1]", "Ubk[2]"]
     golden.write("arithmetic_lines", program, (["x.value", "value.value", "state.value"], stimulus), (header, trace),
                  "another order of the operations", relative=1e-12, absolute=1e-12, period=0.1)
 
