@@ -41,7 +41,7 @@ pub fn read(
     let mut lines = Lines::declarations(source, file);
     let mut declared = Declared::default();
     let mut current: Option<Decl> = None;
-    let mut sound = context.diagnostics().len();
+    let mut sound = mistakes(&mut context);
     while let Some(broken) = lines.next_line(context.diagnostics()) {
         let (first, start) = (lines.tokens[0].token, lines.tokens[0].start);
         let line = if broken { None } else { parse_declaration_line(&mut context, &lines) };
@@ -68,7 +68,7 @@ pub fn read(
             (None, _) => {
                 finish(&mut context, current.take(), &mut sound, &mut declared);
                 declared.spoiled.extend(head_name(&context, &lines));
-                sound = context.diagnostics().len();
+                sound = mistakes(&mut context);
             }
         }
     }
@@ -81,15 +81,20 @@ fn finish(context: &mut Context<'_>, decl: Option<Decl>, sound: &mut usize, decl
     let Some(decl) = decl else {
         return;
     };
-    if context.diagnostics().len() == *sound {
+    if mistakes(context) == *sound {
         check(context, &decl);
     }
-    let before = std::mem::replace(sound, context.diagnostics().len());
+    let before = std::mem::replace(sound, mistakes(context));
     if *sound == before {
         declared.decls.push(decl);
     } else {
         declared.spoiled.push(decl.name);
     }
+}
+
+/// How many errors there are so far; a warning is no mistake.
+fn mistakes(context: &mut Context<'_>) -> usize {
+    context.diagnostics().iter().filter(|diagnostic| diagnostic.is_error()).count()
 }
 
 fn is_clause_word(token: Token) -> bool {
