@@ -1,4 +1,4 @@
-//! Golden cases: folders in `tests/cases`.
+//! Golden cases: folders in `tests/cases`; and the examples, which are compared in the same way.
 
 use crate::{pcl2, root, run};
 use serde::Deserialize;
@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A folder in `tests/cases`.
+/// A folder in `tests/cases` or `examples`.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The folder's name.
@@ -92,13 +92,33 @@ impl Width {
 /// # Panics
 /// When a case cannot be read.
 pub fn all() -> Vec<Case> {
-    let mut folders: Vec<PathBuf> = fs::read_dir(root().join("tests/cases"))
-        .expect("tests/cases")
-        .map(|entry| entry.expect("an entry").path())
-        .filter(|path| path.is_dir())
-        .collect();
+    below("tests/cases").iter().map(|folder| Case::read(folder)).collect()
+}
+
+/// All cases, and the examples that are projects.
+///
+/// # Panics
+/// When one cannot be read.
+pub fn with_examples() -> Vec<Case> {
+    let examples = below("examples").into_iter().map(|folder| Case::read(&folder));
+    all().into_iter().chain(examples.filter(|example| example.has("pcl2.toml"))).collect()
+}
+
+/// The folders in a folder, in order of name.
+fn below(path: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let mut folders: Vec<PathBuf> =
+        entries.map(|entry| entry.expect("an entry").path()).filter(|path| path.is_dir()).collect();
     folders.sort();
-    folders.iter().map(|folder| Case::read(folder)).collect()
+    folders
+}
+
+/// The example of this name.
+///
+/// # Panics
+/// When there is none.
+pub fn example(name: &str) -> Case {
+    Case::read(&root().join("examples").join(name))
 }
 
 /// The case of this name.

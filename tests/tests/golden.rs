@@ -1,4 +1,4 @@
-//! The golden cases: whatever stands in a case's folder is compared.
+//! The golden cases and the examples: whatever stands in a case's folder is compared.
 
 use pcl2_tests::cases::{self, Case, Width};
 use pcl2_tests::table::{Table, compare, same_text};
@@ -6,7 +6,10 @@ use pcl2_tests::{compilers, expect, none, run};
 use std::fs;
 
 fn complaints(check: impl Fn(&Case) -> Result<(), String>) -> Vec<String> {
-    let cases = cases::all();
+    of(&cases::with_examples(), check)
+}
+
+fn of(cases: &[Case], check: impl Fn(&Case) -> Result<(), String>) -> Vec<String> {
     assert!(!cases.is_empty(), "there are no cases");
     let failed = |case: &Case| check(case).err().map(|why| format!("{}: {why}", case.name));
     cases.iter().filter_map(failed).collect()
@@ -19,7 +22,7 @@ fn builds(case: &Case) -> bool {
 #[test]
 fn every_case_expects_something() {
     let files = ["trace.csv", "diagnostics.snap", "generated.snap", "diagram.snap"];
-    none(&complaints(|case| {
+    none(&of(&cases::all(), |case| {
         let expects = files.iter().any(|file| case.has(file)) || !expect::expected(case).is_empty();
         if expects { Ok(()) } else { Err("nothing is expected".to_owned()) }
     }));

@@ -1,0 +1,130 @@
+//! The examples of whole plants, held against what an engineer computes by hand.
+
+use pcl2_tests::cases::{Width, example};
+use pcl2_tests::table::Table;
+use std::collections::BTreeMap;
+
+/// The trace of an example under its stimulus, column by column.
+struct Run(BTreeMap<String, Vec<f64>>);
+
+impl Run {
+    fn of(name: &str) -> Run {
+        Run::with(name, &[])
+    }
+
+    fn with(name: &str, args: &[&str]) -> Run {
+        let case = example(name);
+        let mut command = case.run("embedded", Width::F64);
+        command.args(args);
+        let trace = Table::read(&case.trace(command).unwrap());
+        Run(trace.header.iter().skip(2).map(|name| (name.clone(), trace.values(name))).collect())
+    }
+
+    fn at(&self, name: &str, scan: usize) -> f64 {
+        self.all(name)[scan]
+    }
+
+    fn all(&self, name: &str) -> &[f64] {
+        self.0.get(name).unwrap_or_else(|| panic!("no column {name}"))
+    }
+
+    /// How much a signal changed since the scan before, or since one further back.
+    fn change(&self, name: &str, from: usize, to: usize) -> f64 {
+        self.at(name, to) - self.at(name, from)
+    }
+
+    /// How far a signal is from a value at most, from scan to scan.
+    fn furthest(&self, name: &str, from: usize, to: usize, value: f64) -> f64 {
+        self.all(name)[from..to].iter().fold(0.0, |worst, found| (found - value).abs().max(worst))
+    }
+
+    /// The first scan from `from` on in which a signal is so.
+    fn first(&self, name: &str, from: usize, so: impl Fn(f64) -> bool) -> usize {
+        let found = self.all(name).iter().skip(from).position(|value| so(*value));
+        from + found.unwrap_or_else(|| panic!("{name} never becomes so"))
+    }
+}
+
+fn near(what: &str, found: f64, expected: f64, distance: f64) {
+    assert!((found - expected).abs() <= distance, "{what}: expected {expected}, found {found}");
+}
+
+#[test]
+fn an_exchanger_rests_where_its_heat_is_balanced() {
+    // 2200 F = 4.2 W (T - Tin), and the valve passes 2 kg/s when it is open and the pressure is 10 bar.
+    let run = Run::of("exchanger");
+    for (scan, load, outlet, pressure) in [(699, 10.0, 70.0, 10.0), (1099, 13.0, 70.0, 10.0), (1399, 13.0, 75.0, 10.0)]
+    {
+        let steam = 4.2 * load * (outlet - 20.0) / 2200.0;
+        near("TT", run.at("TT", scan), outlet, 0.02);
+        near("F", run.at("F", scan), steam, 0.002);
+        near("FC", run.at("FC", scan), 100.0 * steam / 2.0 * 10.0 / pressure, 0.1);
+    }
+    near("FC", run.at("FC", 1699), 100.0 * 4.2 * 13.0 * 55.0 / 2200.0 / 1.6, 0.1);
+    // At rest, what the steam brings is what the water takes.
+    let heat = 2200.0 * run.change("steam", 500, 650) / 3600.0;
+    near("kWh", run.change("kWh", 500, 650), heat, 0.002 * heat);
+}
+
+#[test]
+fn each_section_of_an_exchanger_counts_in_its_own_period() {
+    let run = Run::of("exchanger");
+    // From the law of a PI controller: T = Ti (du - dff - K (dw - dy))/(K e'), in scans that follow one another.
+    let mut runs = 0;
+    for k in (215..400).step_by(5) {
+        let gain = 0.025;
+        let moved = run.change("TC", k - 5, k) - run.change("FF", k - 5, k) + gain * run.change("TT", k - 5, k);
+        near("T of TC", 30.0 * moved / (gain * (70.0 - run.at("TT", k - 5))), 2.5, 1e-6);
+        runs += 1;
+    }
+    assert_eq!(runs, 37);
+    for k in 1402..1420 {
+        let gain = 40.0;
+        let e = run.at("TC", k - 1) - run.at("F", k - 1);
+        let p = gain * (run.change("TC", k - 1, k) - run.change("F", k - 1, k));
+        near("T of FC", 2.0 * (run.change("FC", k - 1, k) - p) / (gain * e), 0.5, 1e-6);
+    }
+    for k in (50..2101).step_by(50) {
+        near("steam", run.change("steam", k - 1, k), 25.0 * run.at("F", k), 1e-9);
+    }
+    // And between its turns a section does nothing.
+    for k in 1..2101 {
+        assert!(k % 5 == 0 || run.change("TC", k - 1, k) == 0.0 && run.change("FF", k - 1, k) == 0.0, "scan {k}");
+        assert!(k % 50 == 0 || run.change("steam", k - 1, k) == 0.0 && run.change("mean", k - 1, k) == 0.0, "scan {k}");
+    }
+}
+
+#[test]
+fn an_exchanger_closes_its_cascade_and_loses_its_sensor_without_a_bump() {
+    let run = Run::of("exchanger");
+    // TC waits at the flow loop's set-point, and goes on from there.
+    assert!(run.all("TC.actual")[5..205].iter().all(|actual| *actual == 4.0));
+    assert!(run.all("TC")[25..205].iter().all(|point| *point == 0.5));
+    assert!(run.furthest("FC", 190, 205, 25.0) < 0.05);
+    // The sensor breaks at 850 s: held for the 10 s of tbad, then manual; TC does not move before 902.5 s.
+    let shed = run.first("TC.actual", 1700, |actual| actual == 0.0);
+    assert_eq!((shed, run.first("TC.actual", shed, |actual| actual == 1.0)), (1720, 1800));
+    let held = run.at("TC", 1699);
+    assert!(run.all("TC")[1700..1805].iter().all(|point| *point == held));
+    let valve = run.at("FC", 1699);
+    assert!(run.furthest("FC", 1700, 1820, valve) < 0.05, "{}", run.furthest("FC", 1700, 1820, valve));
+}
+
+#[test]
+fn an_exchanger_is_tuned() {
+    let run = Run::of("exchanger");
+    // A third more water would cost 50 (1 - 10/13) = 11.5 K: feed-forward leaves a twentieth of it.
+    let load = 50.0 * (1.0 - 10.0 / 13.0);
+    assert!(run.furthest("TT", 700, 1100, 70.0) < 0.05 * load);
+    let alone = Run::with("exchanger", &["--set", "FF.k=0"]);
+    assert!(alone.furthest("TT", 700, 1100, 70.0) > 0.4 * load);
+    // A new set-point: there in two minutes, no more than 0.1 K beyond. Less steam pressure: 2 s of a flow that is too low.
+    assert!(run.all("TT")[1100..1400].iter().all(|outlet| *outlet < 75.1));
+    assert!(run.furthest("TT", 1340, 1400, 75.0) < 0.1);
+    assert!(run.furthest("TT", 1400, 1700, 75.0) < 1.0);
+    near("F", run.at("F", 1420), run.at("TC", 1420), 0.03);
+    // A settled loop: what the feedback gave is the integral of its error, du = (K/Ti) sum(e) T.
+    let e: f64 = (695..1095).step_by(5).map(|k| 70.0 - run.at("TT", k)).sum();
+    let given = run.change("TC", 695, 1095) - run.change("FF", 695, 1095) + 0.025 * run.change("TT", 695, 1095);
+    near("du", given, 0.025 / 30.0 * 2.5 * e, 1e-12);
+}
