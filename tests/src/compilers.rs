@@ -2,6 +2,7 @@
 
 use crate::cases::{Case, Width};
 use crate::{pcl2, run};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -118,13 +119,25 @@ impl Built {
     /// When the compiler says anything.
     pub fn compile(&self, compiler: &str, flags: &[&str]) -> TempDir {
         let objects = folder();
-        let mut command = Command::new(compiler);
-        command.args(flags).arg("-c").current_dir(objects.path());
-        for include in self.includes() {
-            command.arg("-I").arg(include);
+        let mut left = self.sources();
+        for turn in 0.. {
+            // Objects get the names of their sources: of two with one name, such as a program and a kernel, one has to wait.
+            let mut names = BTreeSet::new();
+            let (now, later): (Vec<_>, Vec<_>) =
+                left.into_iter().partition(|path| names.insert(path.file_name().map(ToOwned::to_owned)));
+            let place = objects.path().join(turn.to_string());
+            fs::create_dir(&place).expect("a folder");
+            let mut command = Command::new(compiler);
+            command.args(flags).arg("-c").current_dir(&place);
+            for include in self.includes() {
+                command.arg("-I").arg(include);
+            }
+            check(command.args(&now));
+            if later.is_empty() {
+                break;
+            }
+            left = later;
         }
-        command.args(self.sources());
-        check(&mut command);
         objects
     }
 
