@@ -1,8 +1,11 @@
 //! The examples of whole plants, held against what an engineer computes by hand.
 
 use pcl2_tests::cases::{Width, example};
+use pcl2_tests::compilers::{check, folder};
+use pcl2_tests::pcl2;
 use pcl2_tests::table::Table;
 use std::collections::BTreeMap;
+use std::fs;
 
 /// The trace of an example under its stimulus, column by column.
 struct Run(BTreeMap<String, Vec<f64>>);
@@ -16,7 +19,11 @@ impl Run {
         let case = example(name);
         let mut command = case.run("embedded", Width::F64);
         command.args(args);
-        let trace = Table::read(&case.trace(command).unwrap());
+        Run::read(&case.trace(command).unwrap())
+    }
+
+    fn read(csv: &str) -> Run {
+        let trace = Table::read(csv);
         Run(trace.header.iter().skip(2).map(|name| (name.clone(), trace.values(name))).collect())
     }
 
@@ -26,6 +33,10 @@ impl Run {
 
     fn all(&self, name: &str) -> &[f64] {
         self.0.get(name).unwrap_or_else(|| panic!("no column {name}"))
+    }
+
+    fn is(&self, name: &str, scan: usize) -> bool {
+        self.at(name, scan) != 0.0
     }
 
     /// How much a signal changed since the scan before, or since one further back.
@@ -47,6 +58,105 @@ impl Run {
 
 fn near(what: &str, found: f64, expected: f64, distance: f64) {
     assert!((found - expected).abs() <= distance, "{what}: expected {expected}, found {found}");
+}
+
+/// How many scans a lag needs to pass a part of its way, when each goes on by `e^(-rate T)`.
+fn scans_of_lag(left: f64, rate: f64, period: f64) -> usize {
+    ((1.0 / left).ln() / (rate * period)).ceil() as usize
+}
+
+#[test]
+fn a_burner_starts_by_its_timers() {
+    let run = Run::of("burner");
+    // The fan passes 80 % when e^(-0.5 t) = 0.2; then 10 s of purge, 3 s of trial, 2 s of a steady flame.
+    let air = 20 + scans_of_lag(0.2, 0.5, 0.1);
+    assert_eq!(air, 53);
+    assert_eq!(run.first("run", 0, |run| run == 1.0), 20);
+    assert_eq!(run.first("vp", 0, |vp| vp == 1.0), air + 100);
+    assert_eq!(run.first("spark", air + 100, |spark| spark == 0.0), air + 130);
+    assert_eq!(run.first("vm", 0, |vm| vm == 1.0), air + 150);
+    assert_eq!(run.first("vp", air + 100, |vp| vp == 0.0), air + 200);
+    // The stop at 40 s: gas at once, the fan 5 s later.
+    assert_eq!(run.first("vm", 300, |vm| vm == 0.0), 400);
+    assert_eq!(run.first("fan", 300, |fan| fan == 0.0), 450);
+}
+
+#[test]
+fn a_burner_burns_at_the_balance_of_its_pipe() {
+    // pg = 50 - 0.1 q and q = 2 (0.9) pg: q = 90/1.18; the furnace has 0.5 mbar of air and 0.02 q of burnt gas.
+    let run = Run::of("burner");
+    let q = 90.0 / 1.18;
+    near("q", run.at("q", 399), q, 1e-6);
+    near("pg", run.at("pg", 399), 50.0 - 0.1 * q, 1e-6);
+    near("pf", run.at("pf", 399), 0.5 + 0.02 * q, 1e-5);
+}
+
+#[test]
+fn a_burner_trips_in_time() {
+    let run = Run::of("burner");
+    let cause = |from: usize| {
+        let scan = run.first("lock", from, |lock| lock == 1.0);
+        (scan, run.at("cause", scan))
+    };
+    // The scanner's signal falls from 100 to 20 at 4/s, from the scan of the storm on; then 0.5 s.
+    let dark = 800 + scans_of_lag(0.2, 4.0, 0.1) - 1;
+    assert_eq!(cause(410), (dark + 5, 2.0));
+    assert!(dark + 5 - 800 < 10, "the flame failure takes a second");
+    // 30 mbar less what the flow takes is below 35 mbar in the first scan; then 1 s.
+    assert_eq!(cause(900), (1200 + 10, 3.0));
+    // The furnace goes from p to 3 p with 1/s, and p is that of the full flow; the trip is at 5 mbar.
+    let p = 0.5 + 0.02 * 90.0 / 1.18;
+    assert_eq!(cause(1300), (1600 + scans_of_lag((3.0 * p - 5.0) / (2.0 * p), 1.0, 0.1) - 1, 4.0));
+    // No ignition: the trial time after the pilot valve opened.
+    assert_eq!(cause(1700), (run.first("vp", 1700, |vp| vp == 1.0) + 30, 1.0));
+    for (reset, trip) in [(860, 809), (1260, 1210), (1680, 1613)] {
+        assert!(run.all("lock")[trip..reset].iter().all(|lock| *lock == 1.0) && run.at("lock", reset) == 0.0);
+    }
+}
+
+#[test]
+fn a_burner_is_safe_in_every_scan() {
+    let run = Run::of("burner");
+    let fuel = |scan: usize| run.is("vp", scan) || run.is("vm", scan);
+    let (mut purge, mut dark) = (0, 0);
+    for scan in 0..run.all("run").len() {
+        let shut = run.is("lock", scan) || !run.is("run", scan) || run.is("stop", scan);
+        assert!(!(shut && fuel(scan)), "scan {scan}: fuel although it must be shut");
+        assert!(!run.is("spark", scan) || run.is("vp", scan) && !run.is("vm", scan), "scan {scan}: a spark");
+        assert!(!fuel(scan) || run.is("fan", scan), "scan {scan}: fuel without the fan");
+        if scan > 0 && fuel(scan) && !fuel(scan - 1) {
+            assert!(purge >= 100, "scan {scan}: fuel after {purge} scans of purge");
+        }
+        purge = if run.is("air", scan) && !fuel(scan) { purge + 1 } else { 0 };
+        dark = if run.is("vm", scan) && !run.is("fire", scan) { dark + 1 } else { 0 };
+        assert!(dark < 10, "scan {scan}: gas without a flame for a second");
+    }
+    // The starts at 84 s (locked) and 89 s (gas pressure) are refused, and missing says why.
+    for (start, missing) in [(840, 8.0), (890, 1.0)] {
+        assert!(run.is("push", start) && run.is("refused", start) && !run.is("run", start), "start at scan {start}");
+        assert_eq!(run.at("missing", start), missing, "start at scan {start}");
+    }
+}
+
+/// Each of its four sensors breaks while the burner fires.
+#[test]
+fn a_burner_does_not_fire_blind() {
+    let source = fs::read_to_string(example("burner").folder.join("main.cfg")).unwrap();
+    let stimulus = "t,start.value,\"ain(0,1,1)\"\n2,1,\n2.5,0,\n40,,nan\n45,,\n";
+    for (signal, trip, cause) in [("pg", 410, 3.0), ("f", 405, 2.0), ("a", 400, 5.0), ("pf", 400, 4.0)] {
+        let sensor =
+            format!("CONTROL\n24 wire = ain ( : 0, 1, 1 )\n25 sensed = sumII ( 1, {signal}, wire, 2 : 1., 1. )\n");
+        let broken = source.replace("CONTROL\n", &sensor).replace(&format!("hyst ( {signal} :"), "hyst ( sensed :");
+        let folder = folder();
+        fs::write(folder.path().join("main.cfg"), broken).unwrap();
+        fs::write(folder.path().join("stimulus.csv"), stimulus).unwrap();
+        let mut command = pcl2();
+        command.args(["run", "main.cfg", "--period", "0.1", "--trace", "-", "--stimulus", "stimulus.csv"]);
+        let run = Run::read(&check(command.current_dir(folder.path())));
+        assert!(run.is("vm", 399), "{signal}");
+        assert_eq!(run.first("vm", 300, |vm| vm == 0.0), trip, "{signal}");
+        assert_eq!((run.at("lock", trip), run.at("cause", trip)), (1.0, cause), "{signal}");
+    }
 }
 
 #[test]
