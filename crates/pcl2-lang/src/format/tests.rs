@@ -44,6 +44,13 @@ fn breaks_behind_commas_stay_and_the_colon_begins_a_line() {
 }
 
 #[test]
+fn breaks_around_empty_places_stay() {
+    let expected = "CONTROL\n1 y = f ( a,\n          ,\n          , b : )\nEND\n";
+    gives("CONTROL\n1 y = f ( a\n, ,\n, b : )\nEND\n", expected);
+    gives(expected, expected);
+}
+
+#[test]
 fn long_lists_are_broken_at_the_colon_and_where_a_line_is_full() {
     let list = |n: usize| vec!["0.25"; n].join(", ");
     gives(

@@ -163,7 +163,8 @@ fn breaks(pieces: &[Piece], around: &[Around]) -> Vec<bool> {
     for (i, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.new_line) {
         let previous = i.checked_sub(1).map(|previous| around[previous]);
         let place = match (piece.token, previous) {
-            (Token::Comma, _) => i + 1,
+            // A comma stands on the line of its item; that of an empty place has none.
+            (Token::Comma, _) if !around[i].may_break => i + 1,
             (_, Some(previous)) if previous.colon => i - 1,
             _ => i,
         };
