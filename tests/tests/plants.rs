@@ -238,3 +238,70 @@ fn an_exchanger_is_tuned() {
     let given = run.change("TC", 695, 1095) - run.change("FF", 695, 1095) + 0.025 * run.change("TT", 695, 1095);
     near("du", given, 0.025 / 30.0 * 2.5 * e, 1e-12);
 }
+
+#[test]
+fn a_level_starts_where_its_valves_stand() {
+    let run = Run::of("level");
+    for (name, rest) in [("xa", 100.0 * 4.0 / 7.0), ("va", 100.0 * 4.0 / 7.0), ("xb", 0.0), ("vb", 0.0), ("q", 20.0)] {
+        let moved = run.furthest(name, 0, 120, rest);
+        assert!(moved < 1e-6, "{name} moves by {moved}");
+    }
+    assert!(run.all("FC.actual")[6..120].iter().all(|actual| *actual == 2.0));
+    assert!(run.all("LC.actual")[6..120].iter().all(|actual| *actual == 1.0));
+}
+
+#[test]
+fn a_level_keeps_its_balances() {
+    let run = Run::of("level");
+    for k in 1..2401 {
+        // What comes in and does not go out stays: 1 m3/h for a second is 1/180 % of 5 m3.
+        let stays = (run.at("qi", k) - run.at("q", k)) * 0.5 / 180.0;
+        near("dh", run.change("h", k - 1, k), stays, 1e-9);
+        // The ranges are as the valves' sizes: together they open in proportion to the one output.
+        if k > 10 {
+            near("open", 0.2 * run.at("va", k) + 0.6 * run.at("vb", k), 0.8 * run.at("OV", k), 1e-9);
+            assert!(run.at("va", k) == 100.0 || run.at("vb", k) == 0.0, "scan {k}: both valves move");
+        }
+    }
+    // At rest at 20 m3/h: p = 2 + 0.05 (20), an opening of 4 (20)/(10 - p).
+    near("p", run.at("p", 119), 3.0, 1e-6);
+    near("OV", run.at("OV", 119), 4.0 * 20.0 / 7.0 / 0.8, 1e-6);
+    // Under the override 6 = 4.5 + 0.05 q, and the opening is 4 (30)/(10 - 6).
+    near("q", run.at("q", 1690), 30.0, 1e-3);
+    near("OV", run.at("OV", 1690), 4.0 * 30.0 / 4.0 / 0.8, 1e-3);
+}
+
+#[test]
+fn a_level_changes_its_modes_without_a_bump() {
+    let run = Run::of("level");
+    // FC: cascade to manual, and the whole time in manual until the operator moves it.
+    near("OV", run.furthest("OV", 119, 160, run.at("OV", 119)), 0.0, 1e-12);
+    near("OV", run.at("OV", 165), 16.0, 0.0);
+    // Manual to automatic, automatic to cascade, and LC to manual.
+    for (from, to) in [(199, 200), (279, 283), (399, 403)] {
+        let moved = run.furthest("OV", from, to + 1, run.at("OV", from));
+        assert!(moved < 1e-3, "scan {from}: the output moves by {moved}");
+    }
+    // While FC has its own set-point, LC waits there; it goes on from it, and from its manual output, by its own law.
+    assert!(run.all("LC.actual")[121..281].iter().all(|actual| *actual == 4.0));
+    near("LC", run.furthest("LC", 121, 281, 20.0), 0.0, 1e-9);
+    near("LC", run.change("LC", 280, 281), 2.0 * run.change("h", 280, 281), 1e-6);
+    near("LC", run.change("LC", 519, 520), 2.0 * run.change("h", 519, 520), 1e-9);
+}
+
+#[test]
+fn a_level_is_overridden_and_nothing_winds_up() {
+    let run = Run::of("level");
+    // PC acts within 2 s of the network's pressure, which never passes 6 bar; FC acts 2 s after it is gone.
+    let acts = run.first("OV.idx", 1400, |number| number == 2.0);
+    assert!(acts < 1404 && run.first("OV.idx", acts, |number| number == 1.0) < 1705, "PC acts from scan {acts}");
+    assert!(run.all("OV.idx")[acts..1700].iter().all(|number| *number == 2.0));
+    assert!(run.all("p").iter().all(|p| *p < 6.0));
+    // The one that does not act is K e away from the output, not more.
+    near("FC", run.at("FC", 1690), run.at("OV", 1690) + 0.4 * (run.at("LC", 1690) - run.at("q", 1690)), 1e-3);
+    near("PC", run.at("PC", 119), run.at("OV", 119) + 5.0 * (6.0 - run.at("p", 119)), 1e-3);
+    // LC's output grows with the level, its integral part does not.
+    let integral = |k: usize| run.at("LC", k) - 2.0 * (run.at("h", k) - 50.0);
+    assert!(integral(1700) <= integral(acts + 1), "{} to {}", integral(acts + 1), integral(1700));
+    assert!(run.change("h", acts, 1700) > 8.0);
+}
