@@ -2,10 +2,12 @@
 #include "loops.h"
 #include "pcl2_math.h"
 
+#define PERIOD PCL2_R(0.1)
+
 static void lag_init(struct hand_lag *self, pcl2_real a, pcl2_real b)
 {
-    self->e = pcl2_math_exp(-(a * PCL2_R(0.1)));
-    self->g = -(b / a) * pcl2_math_expm1(-(a * PCL2_R(0.1)));
+    self->e = pcl2_math_exp(-(a * PERIOD));
+    self->g = -(b / a) * pcl2_math_expm1(-(a * PERIOD));
     self->y = PCL2_R(0.0);
 }
 
@@ -20,37 +22,64 @@ static inline pcl2_real lag(struct hand_lag *self, pcl2_real u)
     return y;
 }
 
-#ifdef HAND_COMPOSITE
-
-static void weights_init(struct hand_loop *self)
+static void pid_init(struct hand_pid *self, pcl2_real K, pcl2_real Ti)
 {
-    self->u = PCL2_R(0.0);
+    memset(self, 0, sizeof *self);
+    self->kp = K;
+    self->ki = K * (PERIOD / Ti);
+    self->kt = PERIOD / Ti;
+    self->b = PCL2_R(1.0);
+    self->high = PCL2_R(100.0);
+    self->automatic = 1;
+}
+
+static inline pcl2_real clamp(const struct hand_pid *self, pcl2_real u)
+{
+    return u > self->high ? self->high : u >= self->low ? u : self->low;
+}
+
+/* Back-calculation, a compensated integral, bumpless transfers, a dead sensor holds the output. */
+static inline pcl2_real pid(struct hand_pid *self, pcl2_real y, pcl2_real w)
+{
+    const pcl2_real p = self->kp * (self->b * w - y);
+    const pcl2_real d = self->ad * self->d + self->kd * (self->c * (w - self->w1) - (y - self->y1));
+    const pcl2_real v = p + self->i + d;
+    self->failed = pcl2_is_bad(v);
+    if (self->failed) {
+        self->started = 0;
+        return self->u;
+    }
+    if (!self->automatic || !self->started) {
+        self->u = clamp(self, self->um);
+        self->i = self->u - p;
+        self->carry = PCL2_R(0.0);
+        self->d = PCL2_R(0.0);
+        self->started = 1;
+    } else {
+        const pcl2_real u = clamp(self, v);
+        const pcl2_real step = self->ki * (w - y) + self->kt * (u - v) + self->carry;
+        const pcl2_real sum = self->i + step;
+        self->carry = step - (sum - self->i);
+        self->i = sum;
+        self->d = d;
+        self->u = u;
+    }
+    self->y1 = y;
+    self->w1 = w;
+    self->um = self->u;
+    return self->u;
 }
 
 static inline void loop_step(struct hand_loop *self, pcl2_real w)
 {
-    const pcl2_real e = w - lag(&self->plant, self->u);
-    self->u = PCL2_R(0.8) * e + lag(&self->memory, e);
-}
-
-#else
-
-static void weights_init(struct hand_loop *self)
-{
-    self->error = (struct hand_sum){PCL2_R(1.0), PCL2_R(-1.0), PCL2_R(0.0)};
-    self->control = (struct hand_sum){PCL2_R(0.8), PCL2_R(1.0), PCL2_R(0.0)};
-}
-
-static inline void loop_step(struct hand_loop *self, pcl2_real w)
-{
-    const pcl2_real y = lag(&self->plant, self->control.z);
-    const pcl2_real e = self->error.p1 * w + self->error.p2 * y;
-    const pcl2_real i = lag(&self->memory, e);
-    self->error.z = e;
-    self->control.z = self->control.p1 * e + self->control.p2 * i;
-}
-
+    const pcl2_real y = lag(&self->plant, self->u);
+    const pcl2_real v = pid(&self->control, y, w);
+    const pcl2_real forward = PCL2_R(0.1) * (w - y);
+#ifndef HAND_COMPOSITE
+    self->forward = forward;
 #endif
+    self->u = v + forward;
+}
 
 void hand_loops_init(struct hand_loops *self)
 {
@@ -61,8 +90,8 @@ void hand_loops_init(struct hand_loops *self)
     self->setpoint = PCL2_R(50.0);
     for (int i = 0; i < HAND_LOOPS; i++) {
         lag_init(&self->loop[i].plant, a[i % 10], PCL2_R(0.2));
-        lag_init(&self->loop[i].memory, PCL2_R(0.5), PCL2_R(0.05));
-        weights_init(&self->loop[i]);
+        pid_init(&self->loop[i].control, PCL2_R(0.8), PCL2_R(20.0));
+        self->loop[i].u = PCL2_R(0.0);
     }
 }
 

@@ -1,6 +1,5 @@
-/* HAND_LOOPS control loops by hand: lag, error, lag, sum. HAND_COMPOSITE: weights are literals and the error is
- * nowhere to be seen, as in the composite of the generated program; otherwise every weight can be tuned and every
- * signal be watched, as in the straight list. */
+/* HAND_LOOPS control loops by hand: a lag as plant, a PID controller, the feed-forward, the valve's signal.
+ * HAND_COMPOSITE: what nobody outside looks at stays in registers, as in the composite of the generated program. */
 #ifndef HAND_LOOPS_H
 #define HAND_LOOPS_H
 #include "pcl2.h"
@@ -9,23 +8,21 @@ struct hand_lag {
     pcl2_real e, g, y;
 };
 
-#ifdef HAND_COMPOSITE
-struct hand_loop {
-    struct hand_lag plant, memory;
-    pcl2_real u;
-};
-#else
-struct hand_sum {
-    pcl2_real p1, p2, z;
+/* Mode and manual output are the operator's. */
+struct hand_pid {
+    pcl2_real kp, ki, kd, ad, kt, b, c, low, high, ufail;
+    pcl2_real i, carry, d, y1, w1, u, um;
+    int32_t automatic, started, failed;
 };
 
 struct hand_loop {
     struct hand_lag plant;
-    struct hand_sum error;
-    struct hand_lag memory;
-    struct hand_sum control;
-};
+    struct hand_pid control;
+#ifndef HAND_COMPOSITE
+    pcl2_real forward;
 #endif
+    pcl2_real u;
+};
 
 struct hand_loops {
     pcl2_real setpoint, w;
@@ -42,10 +39,6 @@ static inline pcl2_real hand_y(const struct hand_loops *self, int i)
 
 static inline pcl2_real hand_u(const struct hand_loops *self, int i)
 {
-#ifdef HAND_COMPOSITE
     return self->loop[i].u;
-#else
-    return self->loop[i].control.z;
-#endif
 }
 #endif

@@ -44,12 +44,12 @@ static inline int32_t pcl2_return_reversed(int32_t state)
 }
 
 /* 1 when a value has come to the one that a waiting block asked for: equal but for what a characteristic and its
- * inverse lose, 1e-5 of the value. */
+ * inverse lose: 1e-5 of the value, and what rounding leaves of 0 on a scale of some hundreds. */
 static inline int32_t pcl2_has_come(pcl2_real value, pcl2_real asked)
 {
     const pcl2_real distance = value < asked ? asked - value : value - asked;
     const pcl2_real size = asked < PCL2_R(0.0) ? -asked : asked;
-    return distance <= PCL2_R(1e-5) * (size + PCL2_R(1.0));
+    return distance <= PCL2_R(1e-5) * size + PCL2_R(1024.0) * PCL2_REAL_EPSILON;
 }
 
 /* How many scans a waiting block gives its driver to come. */

@@ -16,13 +16,13 @@ pub(crate) enum Style {
 
 /// The composite of one loop.
 const COMPOSITE: &str = "\
-! One control loop: a lag as plant, the error, a lag as the controller's memory, the controller's output.
-real y, real u = loop ( real w : real a, real b, real c, real d )
+! One control loop: a lag as plant, the controller, the feed-forward, the valve's signal.
+real y, real u = loop ( real w : real a, real b, real K, real Ti )
 BODY
 1 y = first ( u : a, b, )
-2 e = sumII ( 1, w, y, 2 : 1., -1. )
-3 i = first ( e : c, d, )
-4 u = sumII ( 1, e, i, 2 : 0.8, 1. )
+2 v = pid ( y, w : K = K, Ti = Ti )
+3 f = 0.1*(w - y)
+4 u = v + f
 END
 ";
 
@@ -42,7 +42,7 @@ fn write_source(source: &Path, count: usize, style: Style) -> std::io::Result<()
         let a = 10 + i % 10;
         match style {
             Style::Straight => straight(&mut out, i, a),
-            Style::Composite => writeln!(out, "{} y{i}, u{i} = loop ( w : 0.{a}, 0.2, 0.5, 0.05 )", 2 * i + 2),
+            Style::Composite => writeln!(out, "{} y{i}, u{i} = loop ( w : 0.{a}, 0.2, 0.8, 20. )", 2 * i + 2),
         }?;
     }
     out.write_all(b"END\n")?;
@@ -52,7 +52,7 @@ fn write_source(source: &Path, count: usize, style: Style) -> std::io::Result<()
 fn straight(out: &mut impl Write, i: usize, a: usize) -> std::io::Result<()> {
     let n = 4 * i + 2;
     writeln!(out, "{n} y{i} = first ( u{i} : 0.{a}, 0.2, )")?;
-    writeln!(out, "{} e{i} = sumII ( 1, w, y{i}, 2 : 1., -1. )", n + 1)?;
-    writeln!(out, "{} i{i} = first ( e{i} : 0.5, 0.05, )", n + 2)?;
-    writeln!(out, "{} u{i} = sumII ( 1, e{i}, i{i}, 2 : 0.8, 1. )", n + 3)
+    writeln!(out, "{} v{i} = pid ( y{i}, w : K = 0.8, Ti = 20. )", n + 1)?;
+    writeln!(out, "{} f{i} = 0.1*(w - y{i})", n + 2)?;
+    writeln!(out, "{} u{i} = v{i} + f{i}", n + 3)
 }
