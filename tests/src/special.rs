@@ -278,7 +278,8 @@ impl Call {
             let at = start.iter().find_map(|start| text.find(start).map(|at| at + start.len()))?;
             Some(text[at..text[at..].find(')')? + at].to_owned())
         });
-        let inner = inner.into_iter().next()?;
+        // Examples of operators are expressions: all is default then.
+        let inner = inner.into_iter().next().or_else(|| decl.operator.is_some().then(String::new))?;
         let (inputs, params) = inner.split_once(':').unwrap_or((&inner, ""));
         let inputs: Vec<&str> = inputs.split(',').map(str::trim).filter(|input| !input.is_empty()).collect();
         // Constants are the inputs that are digits: examples name their signals.
