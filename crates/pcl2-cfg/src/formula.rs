@@ -113,7 +113,9 @@ pub(crate) enum Inferred {
     Known(Type),
     /// It depends on this signal.
     Waiting(SignalId),
-    /// Nothing is said of it here.
+    /// This term has operands that none of its codes takes, whatever is not known yet.
+    Misfit(usize, Vec<Option<Scalar>>),
+    /// An operand is spoiled: nothing is said.
     Spoiled,
 }
 
@@ -122,7 +124,7 @@ pub(crate) fn infer(scope: &Scope<'_>, draft: &Draft<'_>, parts: &Parts<'_>) -> 
     let mut waiting = None;
     let mut results: Vec<Option<Scalar>> = Vec::new();
     let mut sources = draft.sources.iter();
-    for part in &parts.parts {
+    for (i, part) in parts.parts.iter().enumerate() {
         let result = match part {
             Part::Operand => match sources.next().map(|source| source_shape(scope, source)) {
                 Some(Found::Type(ty)) => Some(ty.scalar),
@@ -137,7 +139,7 @@ pub(crate) fn infer(scope: &Scope<'_>, draft: &Draft<'_>, parts: &Parts<'_>) -> 
                 let operands = results.split_off(results.len().saturating_sub(count));
                 let mut fitting = codes.iter().filter(|code| conversions(code, &operands).is_some());
                 let Some(first) = fitting.next() else {
-                    return Inferred::Spoiled;
+                    return Inferred::Misfit(i, operands);
                 };
                 let result = result_of(first);
                 match best(codes, &operands) {
@@ -276,7 +278,7 @@ fn choose(
         let operands = results.split_off(results.len().saturating_sub(count));
         let found: Vec<Option<Scalar>> = operands.iter().map(|(scalar, _)| Some(*scalar)).collect();
         let Some(code) = best(codes, &found) else {
-            diagnostics.push(misfit(input, draft, *name, codes, &operands));
+            diagnostics.push(misfit(input, draft, (*name, codes), &found));
             return false;
         };
         for ((_, operand), wanted) in operands.iter().zip(code.port_scalars()) {
@@ -291,20 +293,32 @@ fn choose(
     true
 }
 
+/// Says which term has operands that do not fit.
+pub(crate) fn report_misfit(
+    input: &Input<'_>,
+    draft: &Draft<'_>,
+    (term, operands): (usize, &[Option<Scalar>]),
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    if let Some(Part::Apply(name, codes)) = draft.formula.as_deref().and_then(|parts| parts.parts.get(term)) {
+        diagnostics.push(misfit(input, draft, (*name, codes), operands));
+    }
+}
+
 fn misfit(
     input: &Input<'_>,
     draft: &Draft<'_>,
-    name: Name,
-    codes: &[&Decl],
-    operands: &[(Scalar, Option<usize>)],
+    (name, codes): (Name, &[&Decl]),
+    operands: &[Option<Scalar>],
 ) -> Diagnostic {
-    let list = |scalars: Vec<Scalar>| -> String {
-        let words: Vec<String> = scalars.into_iter().map(|scalar| scalar_type(scalar).to_string()).collect();
-        words.join(", ")
+    let list = |scalars: Vec<Option<Scalar>>| -> String {
+        let word = |scalar: Option<Scalar>| scalar.map_or("_".to_owned(), |scalar| scalar_type(scalar).to_string());
+        scalars.into_iter().map(word).collect::<Vec<String>>().join(", ")
     };
     let text = input.symbols.text(name.symbol);
-    let wanted: Vec<String> = codes.iter().map(|code| format!("({})", list(code.port_scalars().collect()))).collect();
-    let found = list(operands.iter().map(|(scalar, _)| *scalar).collect());
+    let wanted = codes.iter().map(|code| format!("({})", list(code.port_scalars().map(Some).collect())));
+    let wanted: Vec<String> = wanted.collect();
+    let found = list(operands.to_vec());
     let message = format!("{}: expected {} for `{text}`, found ({found})", draft.title(), wanted.join(" or "));
     Diagnostic::new(codes::TYPE_DIFFERS, name.span, message).help("a real does not fit where an int is needed")
 }
@@ -313,7 +327,7 @@ fn misfit(
 fn waits_for(scope: &Scope<'_>, draft: &Draft<'_>) -> Option<SignalId> {
     match infer(scope, draft, draft.formula.as_deref()?) {
         Inferred::Waiting(id) => Some(id),
-        Inferred::Known(_) | Inferred::Spoiled => None,
+        Inferred::Known(_) | Inferred::Misfit(..) | Inferred::Spoiled => None,
     }
 }
 

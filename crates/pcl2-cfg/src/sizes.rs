@@ -20,12 +20,12 @@ use std::collections::VecDeque;
 pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
     let order = writing_order(input, scope);
     for i in &order {
-        declare_outputs(scope, *i, diagnostics);
+        declare_outputs(input, scope, *i, diagnostics);
     }
     let mut search = Search { ready: order.into(), waiting: FxHashMap::default() };
-    search.run(scope, diagnostics);
+    search.run(input, scope, diagnostics);
     search.declare(input, scope);
-    search.run(scope, diagnostics);
+    search.run(input, scope, diagnostics);
     while let (Some(i), false) = (search.first_waiting(scope), diagnostic::enough(diagnostics)) {
         let i = formula::first_of_loop(scope, i);
         if scope.drafts[i].formula.is_some() {
@@ -36,7 +36,7 @@ pub(crate) fn solve<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &
             report_unknown_size(scope, i, ("a loop of blocks that wait for each other", help), diagnostics);
         }
         search.wake(scope, i);
-        search.run(scope, diagnostics);
+        search.run(input, scope, diagnostics);
     }
     for i in 0..scope.drafts.len() {
         if diagnostic::enough(diagnostics) {
@@ -72,13 +72,13 @@ pub(crate) fn too_large(span: Span) -> Diagnostic {
 }
 
 /// Gives signals the types that constants alone tell, the lowest-numbered writer first.
-fn declare_outputs(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+fn declare_outputs(input: &Input<'_>, scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
     let draft = &scope.drafts[index];
     let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
         return spoil(scope, index);
     };
     if draft.formula.is_some() {
-        let _ = settle_expression(scope, index, diagnostics);
+        let _ = settle_expression(input, scope, index, diagnostics);
         return;
     }
     if draft.sizes.iter().all(Option::is_some) {
@@ -123,9 +123,9 @@ struct Search {
 }
 
 impl Search {
-    fn run(&mut self, scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    fn run(&mut self, input: &Input<'_>, scope: &mut Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
         while let Some(i) = self.ready.pop_front() {
-            match settle(scope, i, diagnostics) {
+            match settle(input, scope, i, diagnostics) {
                 Some(signal) => self.waiting.entry(signal).or_default().push(i),
                 None => self.wake(scope, i),
             }
@@ -165,14 +165,19 @@ impl Search {
 }
 
 /// Tries to find the sizes of a block. `Some`: the signal whose type is still missing.
-fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) -> Option<SignalId> {
+fn settle(
+    input: &Input<'_>,
+    scope: &mut Scope<'_>,
+    index: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<SignalId> {
     let draft = &scope.drafts[index];
     let Some(decl) = draft.decl.filter(|_| !draft.spoiled) else {
         spoil(scope, index);
         return None;
     };
     if draft.formula.is_some() {
-        return settle_expression(scope, index, diagnostics);
+        return settle_expression(input, scope, index, diagnostics);
     }
     if draft.sizes.iter().all(Option::is_some) {
         return None;
@@ -197,7 +202,12 @@ fn settle(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>
 }
 
 /// Tries to find the type of an expression. `Some`: the signal whose type is still missing.
-fn settle_expression(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) -> Option<SignalId> {
+fn settle_expression(
+    input: &Input<'_>,
+    scope: &mut Scope<'_>,
+    index: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<SignalId> {
     let draft = &scope.drafts[index];
     match formula::infer(scope, draft, draft.formula.as_deref()?) {
         formula::Inferred::Known(ty) => {
@@ -205,11 +215,13 @@ fn settle_expression(scope: &mut Scope<'_>, index: usize, diagnostics: &mut Vec<
             None
         }
         formula::Inferred::Waiting(signal) => Some(signal),
+        formula::Inferred::Misfit(term, operands) => {
+            formula::report_misfit(input, draft, (term, &operands), diagnostics);
+            spoil(scope, index);
+            None
+        }
         formula::Inferred::Spoiled => {
-            // What is wrong is said when the ports are checked.
-            if let Some(output) = scope.drafts[index].outputs.first() {
-                scope.wires[output.0 as usize].spoiled = true;
-            }
+            spoil(scope, index);
             None
         }
     }
