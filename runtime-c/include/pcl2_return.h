@@ -52,8 +52,8 @@ static inline int32_t pcl2_has_come(pcl2_real value, pcl2_real asked)
     return distance <= PCL2_R(1e-5) * size + PCL2_R(1024.0) * PCL2_REAL_EPSILON;
 }
 
-/* How many scans a waiting block gives its driver to come. */
-#define PCL2_PATIENCE 16
+/* How many scans a waiting block gives its driver to come: a master may run in a much slower section. */
+#define PCL2_PATIENCE 1000
 
 /* Whether a block waits in this scan instead of following value: now, or since then until value has come to the one that
  * it asked for, at most PCL2_PATIENCE scans. Where nobody listens (bk is NULL) there is nobody to wait for. */

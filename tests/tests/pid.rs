@@ -238,3 +238,16 @@ fn a_feed_forward_that_fails_stays_where_it_was() {
     assert!(trace.values("u").iter().all(|u| ulps(*u, 30.0) <= 1));
     assert!(said.contains("ff is not finite") || said.contains("the sample is bad"), "{said}");
 }
+
+#[test]
+fn a_master_in_a_slow_section_closes_the_cascade_without_a_bump() {
+    let program = "PLANT\n1 F = first ( FC : 0.5, 0.5, )\n2 T1 = first ( F : 0.02, 0.02, )\nCONTROL 50\n\
+                   3 TC = pid ( y = T1, back = FC.bk : K = 2., Ti = 60. )\nCONTROL\n\
+                   4 FC = pid ( y = F, cas = TC : K = 0.8, Ti = 3. )\nEND\n";
+    let sets = "--period 0.5 --until 200 --set FC.w=20 --set TC.w=20@1 --set FC.w=30@110 --set FC.mode=cas@112";
+    let (trace, _) = Loop::new(program).run(sets, None);
+    let (u, mode) = (trace.values("FC"), trace.values("FC.actual"));
+    assert_eq!((mode[225], mode[399]), (1.0, 2.0), "the slave waits for the master's next scan, then follows");
+    let moved = (226..300).map(|scan| (u[scan] - u[scan - 1]).abs()).fold(0.0, f64::max);
+    assert!(moved < 0.2, "{moved}");
+}

@@ -130,7 +130,7 @@ PCL2_KERNEL void pcl2_apid_init(struct pcl2_apid *self, pcl2_real K, pcl2_real T
 
 /* The set-point in force. */
 static pcl2_real pcl2_apid_setpoint(struct pcl2_apid *self, pcl2_real y, pcl2_real w, int32_t mode, pcl2_real cas,
-                                    int32_t trk, int32_t state)
+                                    int32_t trk, int32_t state, const pcl2_real *bk)
 {
     const int32_t apart = state == PCL2_WAITING || trk != 0;
     if (self->follow && (mode == PCL2_MAN || trk != 0)) {
@@ -150,7 +150,7 @@ static pcl2_real pcl2_apid_setpoint(struct pcl2_apid *self, pcl2_real y, pcl2_re
         self->wait = 0;
         return y;
     }
-    return pcl2_follows(&self->wait, cas, self->ws) ? cas : self->ws;
+    return pcl2_follows(&self->wait, bk, cas, self->ws) ? cas : self->ws;
 }
 
 /* y is bad: hold, then shed. */
@@ -228,7 +228,7 @@ PCL2_KERNEL void pcl2_apid(struct pcl2_apid *self, pcl2_real y, pcl2_real w, int
         self->status = 4;
         ff = self->f1;
     }
-    sp = pcl2_apid_setpoint(self, yf, w, mode, cas, trk, state);
+    sp = pcl2_apid_setpoint(self, yf, w, mode, cas, trk, state, bk);
     p = pcl2_apid_proportional(self, sp, yf) + ff + self->offset;
     d = self->ad * self->d + self->kd * (self->cw * (sp - self->ws) - (yf - self->y1));
     v = p + self->i + d;

@@ -27,10 +27,11 @@ static inline pcl2_real pcl2_limited(pcl2_real u, pcl2_real lo, pcl2_real hi)
     return u > hi ? hi : u >= lo ? u : lo;
 }
 
-/* 1 when the master's value is followed: it has come to the one in force, or was waited for too long. */
-static inline int32_t pcl2_follows(int32_t *wait, pcl2_real master, pcl2_real own)
+/* 1 when the master's value is followed: it has come to the one in force, or was waited for too long, or nobody listens
+ * (bk is NULL). */
+static inline int32_t pcl2_follows(int32_t *wait, const pcl2_real *bk, pcl2_real master, pcl2_real own)
 {
-    if (*wait != PCL2_LINKED && !pcl2_has_come(master, own) && *wait < PCL2_PATIENCE) {
+    if (bk != NULL && *wait != PCL2_LINKED && !pcl2_has_come(master, own) && *wait < PCL2_PATIENCE) {
         ++*wait;
         return 0;
     }

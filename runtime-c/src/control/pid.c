@@ -54,23 +54,24 @@ PCL2_KERNEL void pcl2_pid_init(struct pcl2_pid *self, pcl2_real K, pcl2_real Ti,
 }
 
 /* The cascade's set-point, once it is followed. */
-static pcl2_real pcl2_pid_cascade(struct pcl2_pid *self, pcl2_real y, pcl2_real cas, int32_t state)
+static pcl2_real pcl2_pid_cascade(struct pcl2_pid *self, pcl2_real y, pcl2_real cas, int32_t state,
+                                  const pcl2_real *bk)
 {
     if (state == PCL2_WAITING || self->phase == PCL2_FRESH) {
         self->wait = 0;
         return y;
     }
-    return pcl2_follows(&self->wait, cas, self->ws) ? cas : self->ws;
+    return pcl2_follows(&self->wait, bk, cas, self->ws) ? cas : self->ws;
 }
 
 /* The set-point in force. */
 static pcl2_real pcl2_pid_setpoint(struct pcl2_pid *self, pcl2_real y, pcl2_real w, int32_t mode, pcl2_real cas,
-                                   int32_t state)
+                                   int32_t state, const pcl2_real *bk)
 {
     const pcl2_real wanted = mode == PCL2_CAS ? cas : w;
     if (!pcl2_is_bad(wanted)) {
         if (mode == PCL2_CAS) {
-            return pcl2_pid_cascade(self, y, cas, state);
+            return pcl2_pid_cascade(self, y, cas, state, bk);
         }
         self->wait = 0;
         return w;
@@ -138,7 +139,7 @@ PCL2_KERNEL void pcl2_pid(struct pcl2_pid *self, pcl2_real y, pcl2_real w, int32
     const int32_t state = pcl2_return_state(back);
     pcl2_real sp, p, d, v;
     self->status = 0;
-    sp = pcl2_pid_setpoint(self, y, w, mode, cas, state);
+    sp = pcl2_pid_setpoint(self, y, w, mode, cas, state, bk);
     if (self->blind != 0 && !pcl2_is_bad(y)) {
         self->blind = 0;
         self->y1 = y;
