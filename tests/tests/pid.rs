@@ -115,6 +115,18 @@ fn retuning_a_settled_loop_does_not_move_the_output() {
 }
 
 #[test]
+fn a_gain_of_zero_is_left_without_a_bump() {
+    for code in ["pid", "apid"] {
+        let program = format!("CONTROL\n1 y = msc ( : 50. )\n2 u = {code} ( y : K = 0., Ti = 10. )\nEND\n");
+        let test = Loop::new(&program);
+        let (table, _) = test.run("--period 1 --steps 8 --set u.um=20 --set u.w=52 --set u.K=2@3 --set u.K=0@6", None);
+        let u = table.values("u");
+        let expected = [20.0, 20.0, 20.0, 20.0, 20.4, 20.8, 21.2, 21.2];
+        assert!(u.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{code}: {u:?}");
+    }
+}
+
+#[test]
 fn direct_action_is_the_mirror_of_reverse_action() {
     let program = "CONTROL\n1 y = ain ( : 0, 1, 1 )\n2 minus = msc ( : -1. )\n3 zero = msc ( : 0. )\n\
                    4 m = sumII ( 1, y, zero, 2 : -1., 0. )\n\

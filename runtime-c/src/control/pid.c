@@ -13,10 +13,11 @@ PCL2_KERNEL void pcl2_pid_tune(struct pcl2_pid *self, pcl2_real K, pcl2_real Ti,
     const pcl2_real kp = act == 0 ? K : -K;
     const pcl2_real reset = Td > PCL2_R(0.0) ? pcl2_math_sqrt(Ti) * pcl2_math_sqrt(Td) : Ti;
     const pcl2_real shift = self->kp * (self->bw * self->ws - self->y1) - kp * (b * self->ws - self->y1);
-    if (self->phase == PCL2_RUNNING && self->ki != PCL2_R(0.0) && !pcl2_is_bad(self->i + shift)) {
+    if (self->phase == PCL2_RUNNING && self->sums && !pcl2_is_bad(self->i + shift)) {
         self->i += shift;
     }
     self->kp = kp;
+    self->sums = Ti > PCL2_R(0.0);
     self->ki = Ti > PCL2_R(0.0) ? kp * (h / Ti) : PCL2_R(0.0);
     self->ad = Td / (Td + N * h);
     self->kd = kp * N * self->ad;
@@ -116,14 +117,14 @@ static void pcl2_pid_apart(struct pcl2_pid *self, pcl2_real y, pcl2_real sp, pcl
         u = pcl2_is_bad(um) ? u : um;
         self->actual = PCL2_MAN;
     } else if (self->phase == PCL2_FRESH) {
-        u = self->ki == PCL2_R(0.0) ? p : pcl2_is_bad(um) ? u : um;
+        u = !self->sums ? p : pcl2_is_bad(um) ? u : um;
         self->actual = PCL2_AUTO;
     } else {
         self->actual = PCL2_AUTO;
     }
     self->u = pcl2_limited(u, self->lo, self->hi);
     self->i = self->u - p;
-    if (self->phase == PCL2_FRESH && self->actual == PCL2_AUTO && self->ki == PCL2_R(0.0)) {
+    if (self->phase == PCL2_FRESH && self->actual == PCL2_AUTO && !self->sums) {
         self->i = PCL2_R(0.0);
     }
     self->carry = PCL2_R(0.0);
