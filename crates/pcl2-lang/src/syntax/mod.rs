@@ -5,8 +5,8 @@ use crate::ast::{Formula, Item, Line, Name, Number, Operand, Output, Statement, 
 use crate::codes;
 use crate::declare::raw::Expr;
 use crate::diagnostic::{self, Diagnostic};
-use crate::lexer::{DECLARATION_WORDS, Key, Lexeme, Lexer, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of};
-use crate::source::{FileId, NOT_TEXT, SourceFile, Sources, Span};
+use crate::lexer::{Key, Lexeme, Token};
+use crate::source::{FileId, SourceFile, Sources, Span};
 use crate::symbol::{Symbol, Symbols};
 use crate::types::Real;
 use lalrpop_util::ParseError;
@@ -35,6 +35,13 @@ lalrpop_util::lalrpop_mod!(
     )]
     fc
 );
+
+mod lines;
+mod wording;
+
+pub(crate) use lines::Lines;
+use lines::is_comparison;
+use wording::{form_help, list};
 
 /// The deepest nesting of an expression.
 const MAX_DEPTH: u32 = 100;
@@ -219,252 +226,6 @@ fn is_call(tokens: &[Lexeme], error: &ParseError<u32, Token, ()>) -> bool {
     let empty =
         matches!(found, Token::RightParen | Token::Comma) && matches!(previous, Some(Token::LeftParen | Token::Comma));
     head == [Token::Name, Token::LeftParen] && (empty || matches!(found, Token::Equals | Token::Text))
-}
-
-/// Cuts a file into logical lines: a newline inside parentheses is white space.
-pub(crate) struct Lines<'a> {
-    source: &'a SourceFile,
-    file: FileId,
-    lexer: Lexer<'a>,
-    pending: Option<Lexeme>,
-    /// The lines are statements, not declarations.
-    in_program: bool,
-    /// The tokens of the current line.
-    pub(crate) tokens: Vec<Lexeme>,
-}
-
-impl<'a> Lines<'a> {
-    fn new(source: &'a SourceFile, file: FileId, in_program: bool) -> Lines<'a> {
-        let lexer = Lexer::new(&source.text, if in_program { &SECTION_WORDS } else { &DECLARATION_WORDS });
-        Lines { source, file, lexer, pending: None, in_program, tokens: Vec::new() }
-    }
-
-    pub(crate) fn declarations(source: &'a SourceFile, file: FileId) -> Lines<'a> {
-        Lines::new(source, file, false)
-    }
-
-    /// Switches between the words of declarations and those of programs, for a composite's body.
-    pub(crate) fn set_words(&mut self, in_body: bool) {
-        self.in_program = in_body;
-        self.lexer.set_words(if in_body { &SECTION_WORDS } else { &DECLARATION_WORDS });
-    }
-
-    /// The rest of the text after the current line.
-    pub(crate) fn position(&self) -> u32 {
-        self.tokens.last().map_or(0, |lexeme| lexeme.end)
-    }
-
-    /// Goes on at a byte of the text.
-    pub(crate) fn jump(&mut self, byte: u32) {
-        self.pending = None;
-        self.lexer.jump(byte);
-    }
-
-    /// Reads the next line that is not blank. `Some(true)`: it is broken in a way that was already reported.
-    pub(crate) fn next_line(&mut self, diagnostics: &mut Vec<Diagnostic>) -> Option<bool> {
-        self.tokens.clear();
-        let mut open: Vec<Lexeme> = Vec::new();
-        let mut open_text = false;
-        let mut bad = Bad::default();
-        let (mut equals, mut colon) = (None, false);
-        while let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) {
-            match lexeme.token {
-                Token::Newline if open.is_empty() && self.tokens.is_empty() => continue,
-                Token::Newline if open.is_empty() => break,
-                Token::Newline if self.starts_statement() => break,
-                Token::Newline => continue,
-                Token::LeftParen => open.push(lexeme),
-                Token::RightParen => drop(open.pop()),
-                Token::Colon => colon = true,
-                Token::Equals if open.is_empty() && equals.is_none() => equals = Some(self.tokens.len()),
-                Token::Key(Key::End) if self.tokens.is_empty() => {
-                    self.tokens.push(lexeme);
-                    return Some(false);
-                }
-                Token::OpenText => {
-                    open_text = true;
-                    diagnostics.push(unclosed_text(self.span(lexeme)));
-                }
-                Token::Bad => {
-                    let token = bad.meet(lexeme, self, diagnostics);
-                    self.push_replacement(token, lexeme, &mut open);
-                    if bad.skip > lexeme.end {
-                        self.jump(bad.skip);
-                    }
-                    continue;
-                }
-                Token::Dot if self.is_stray_dot(lexeme) => {
-                    diagnostic::warn(diagnostics, stray_dot(self.span(lexeme)));
-                    continue;
-                }
-                _ => {}
-            }
-            self.tokens.push(lexeme);
-        }
-        if self.tokens.is_empty() {
-            return None;
-        }
-        if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, self.in_program) {
-            equals.token = Token::Becomes;
-        }
-        // A string without its end has swallowed the parenthesis.
-        if let (Some(first), false) = (open.first(), open_text) {
-            self.report_unclosed(*first, diagnostics);
-        }
-        Some(bad.unknown || open_text || !open.is_empty())
-    }
-
-    /// The tokens as lalrpop wants them.
-    fn tokens(&self) -> impl Iterator<Item = Result<(u32, Token, u32), ()>> + '_ {
-        self.tokens.iter().map(|lexeme| Ok((lexeme.start, lexeme.token, lexeme.end)))
-    }
-
-    fn span(&self, lexeme: Lexeme) -> Span {
-        Span { file: self.file, start: lexeme.start, end: lexeme.end }
-    }
-
-    fn push_replacement(&mut self, token: Option<Token>, lexeme: Lexeme, open: &mut Vec<Lexeme>) {
-        let Some(token) = token else {
-            return;
-        };
-        match token {
-            Token::LeftParen => open.push(lexeme),
-            Token::RightParen => drop(open.pop()),
-            _ => {}
-        }
-        self.tokens.push(Lexeme { token, ..lexeme });
-    }
-
-    fn is_stray_dot(&self, dot: Lexeme) -> bool {
-        self.tokens.last().is_some_and(|last| last.token == Token::Real && last.end == dot.start)
-    }
-
-    /// Whether what follows a newline inside parentheses looks like a new statement:
-    /// `[number] [names] = code (`, `number [names] =`, a section or a clause word.
-    fn starts_statement(&self) -> bool {
-        let mut ahead = self.lexer.clone().map(|lexeme| lexeme.token).peekable();
-        if let Some(Token::Key(key)) = ahead.peek() {
-            return key.begins_line();
-        }
-        let numbered = ahead.next_if_eq(&Token::Int).is_some();
-        while ahead.next_if(|token| matches!(token, Token::Name | Token::Underscore)).is_some() {
-            if ahead.next_if_eq(&Token::Comma).is_none() {
-                break;
-            }
-        }
-        let equals = ahead.next_if_eq(&Token::Equals).is_some();
-        equals && (numbered || !is_named_argument(ahead))
-    }
-
-    fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::UNCLOSED,
-                self.span(open),
-                "expected `)`, found the next statement or the end of the file",
-            )
-            .help("close this parenthesis"),
-        );
-    }
-}
-
-/// Whether what stands behind `K =` is the value of a named argument, and neither a call nor an expression.
-fn is_named_argument(mut ahead: std::iter::Peekable<impl Iterator<Item = Token>>) -> bool {
-    let signed = ahead.next_if(|token| matches!(token, Token::Plus | Token::Minus)).is_some();
-    match ahead.next() {
-        Some(Token::Name) if signed => false,
-        Some(Token::Name) => !matches!(ahead.peek(), Some(Token::LeftParen)) && !ahead.peek().is_some_and(is_sign),
-        Some(Token::Int | Token::Real) => !ahead.peek().is_some_and(is_sign),
-        Some(Token::LeftParen) => false,
-        Some(_) | None => true,
-    }
-}
-
-/// Whether a token between two operands makes an expression of them.
-fn is_sign(token: &Token) -> bool {
-    match token {
-        Token::Plus | Token::Minus | Token::Star | Token::Slash => true,
-        _ => is_comparison(*token),
-    }
-}
-
-fn is_comparison(token: Token) -> bool {
-    matches!(token, Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ)
-}
-
-fn unclosed_text(span: Span) -> Diagnostic {
-    Diagnostic::new(codes::UNCLOSED_STRING, span, "expected a closing `\"` on the same line, found the end of the line")
-        .help("close the string")
-}
-
-fn stray_dot(span: Span) -> Diagnostic {
-    Diagnostic::new(codes::STRAY_DOT, span, "expected `,` or `)` after a real, found a second dot")
-        .help("the dot is ignored; delete it")
-}
-
-/// Characters without a meaning, reported once for each run of them.
-#[derive(Default)]
-struct Bad {
-    last_end: Option<u32>,
-    /// One past the second byte of a character of two bytes.
-    skip: u32,
-    unknown: bool,
-}
-
-impl Bad {
-    /// Reports the character and returns the ASCII token it stands for.
-    fn meet(&mut self, lexeme: Lexeme, lines: &Lines<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Token> {
-        let continues = self.last_end == Some(lexeme.start);
-        self.last_end = Some(lexeme.end);
-        let text = &lines.source.text[lexeme.start as usize..];
-        let character = text.chars().next().unwrap_or(NOT_TEXT);
-        let twin = if character == NOT_TEXT { self.bytes_twin(lexeme, lines.source) } else { ascii_of(character) };
-        let token = twin.and_then(token_of);
-        self.unknown |= token.is_none() && twin != Some(' ');
-        if !continues || twin.is_some() {
-            let end = if character == NOT_TEXT && twin.is_some() { self.skip } else { lexeme.end };
-            diagnostics.push(bad_character(character, twin, lines.span(Lexeme { end, ..lexeme }), lines.source));
-        }
-        token
-    }
-
-    fn bytes_twin(&mut self, lexeme: Lexeme, source: &SourceFile) -> Option<char> {
-        let raw = source.raw.as_deref()?;
-        let first = *raw.get(lexeme.start as usize)?;
-        let twin = ascii_of_bytes(first, *raw.get(lexeme.start as usize + 1)?)?;
-        self.skip = lexeme.start + 2;
-        Some(twin)
-    }
-}
-
-fn bad_character(character: char, twin: Option<char>, span: Span, source: &SourceFile) -> Diagnostic {
-    let found = match character {
-        NOT_TEXT => match source.raw.as_deref().and_then(|raw| raw.get(span.start as usize)) {
-            Some(byte) => format!("the byte 0x{byte:02x}"),
-            None => "a control character".to_owned(),
-        },
-        c if c.is_control() => format!("the control character 0x{:02x}", c as u32),
-        c if c.is_whitespace() => format!("U+{:04X}", c as u32),
-        c => format!("`{c}`"),
-    };
-    match twin {
-        Some(' ') => {
-            Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found another one ({found})"))
-                .help("type an ordinary blank; any text is free in comments, after `!`")
-        }
-        Some(twin) => Diagnostic::new(
-            codes::BAD_CHARACTER,
-            span,
-            format!("expected ASCII `{twin}`, found its full-width form ({found})"),
-        )
-        .help(format!("type `{twin}` with the input method off")),
-        None => Diagnostic::new(
-            codes::BAD_CHARACTER,
-            span,
-            format!("expected a name, a number or punctuation, found {found}"),
-        )
-        .help("outside comments only ASCII letters, digits and punctuation have a meaning"),
-    }
 }
 
 impl<'a> Context<'a> {
@@ -766,29 +527,6 @@ fn underscore_name(span: Span, text: &str) -> Diagnostic {
         .help("`_` alone discards an output")
 }
 
-fn form_help(tokens: &[Lexeme]) -> &'static str {
-    match tokens.first().map(|lexeme| lexeme.token) {
-        Some(Token::Key(Key::Control)) => "a section is `CONTROL [n [offset]]`",
-        Some(Token::Key(_)) => "a section word stands alone on its line",
-        _ if calls_in_expression(tokens) => {
-            "a call with `:` has a line of its own: give its output a name, and use that in the expression"
-        }
-        _ if tokens.iter().any(|lexeme| lexeme.token == Token::Becomes) => {
-            "a block is `[number] [outputs] = code ( inputs : parameters )`, or without `:` an expression"
-        }
-        _ => "a block is `[number] [outputs] = code ( inputs : parameters )`",
-    }
-}
-
-/// Whether what stands between `=` and `:` looks like an expression.
-fn calls_in_expression(tokens: &[Lexeme]) -> bool {
-    let mut rest =
-        tokens.iter().map(|lexeme| lexeme.token).skip_while(|token| *token != Token::Equals).skip(1).peekable();
-    let operand = matches!(rest.peek(), Some(Token::LeftParen | Token::Int | Token::Real));
-    let call = rest.clone().any(|token| token == Token::LeftParen);
-    call && (operand || rest.take_while(|token| *token != Token::LeftParen).any(|token| is_sign(&token)))
-}
-
 /// A real in both widths, each converted once from the decimal text; `None` when it overflows a double or a float
 /// that should hold it.
 pub fn read_real(digits: &str, negative: bool) -> Option<Real> {
@@ -796,65 +534,4 @@ pub fn read_real(digits: &str, negative: bool) -> Option<Real> {
     let narrow: f32 = digits.parse().ok()?;
     let sign = if negative { -1.0 } else { 1.0 };
     wide.is_finite().then_some(Real { wide: wide * sign, narrow: narrow * sign as f32 })
-}
-
-/// `a`, `b` or `c`, in the words of the language.
-fn list(expected: &[String]) -> String {
-    let mut words: Vec<&str> = expected.iter().map(|token| readable(token)).collect();
-    words.sort_unstable_by_key(|word| (word.starts_with('`'), *word));
-    words.dedup();
-    let names_number = words.contains(&"a name") && words.contains(&"a number");
-    if names_number {
-        words.retain(|word| !matches!(*word, "`+`" | "`-`" | "a string" | "`_`"));
-    }
-    if words.contains(&"`*`") {
-        words.retain(|word| !is_operator(word));
-        words.push("an operator");
-    }
-    if words.contains(&"a clause word") {
-        words.retain(|word| *word != "a section word");
-    }
-    match words.as_slice() {
-        [] => "the end of the line".to_owned(),
-        [one] => (*one).to_owned(),
-        [most @ .., last] => format!("{} or {last}", most.join(", ")),
-    }
-}
-
-fn is_operator(word: &str) -> bool {
-    matches!(word, "`+`" | "`-`" | "`*`" | "`/`" | "`<`" | "`<=`" | "`>`" | "`>=`" | "`==`" | "`<>`")
-}
-
-fn readable(token: &str) -> &str {
-    match token.trim_matches('"') {
-        "NEWLINE" => "the end of the line",
-        "NAME" => "a name",
-        "INT" => "a number",
-        "REAL" => "a number",
-        "TEXT" => "a string",
-        "(" => "`(`",
-        ")" => "`)`",
-        "[" => "`[`",
-        "]" => "`]`",
-        "{" => "`{`",
-        "}" => "`}`",
-        "," => "`,`",
-        ":" => "`:`",
-        "=" | "becomes" => "`=`",
-        "<" => "`<`",
-        "<=" => "`<=`",
-        ">" => "`>`",
-        ">=" => "`>=`",
-        "==" => "`==`",
-        "<>" => "`<>`",
-        "." => "`.`",
-        "+" => "`+`",
-        "-" => "`-`",
-        "*" => "`*`",
-        "/" => "`/`",
-        "_" => "`_`",
-        "INITIALIZE" | "PLANT" | "CONTROL" | "END" => "a section word",
-        "int" | "real" | "ivec" | "vec" | "imat" | "mat" | "text" | "time" | "inout" => "a type",
-        _ => "a clause word",
-    }
 }

@@ -1,0 +1,253 @@
+//! Logical lines: a newline inside parentheses is white space, a missing parenthesis is found here, and so are characters
+//! without a meaning.
+
+use crate::codes;
+use crate::diagnostic::{self, Diagnostic};
+use crate::lexer::{DECLARATION_WORDS, Key, Lexeme, Lexer, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of};
+use crate::source::{FileId, NOT_TEXT, SourceFile, Span};
+
+/// Cuts a file into logical lines: a newline inside parentheses is white space.
+pub(crate) struct Lines<'a> {
+    source: &'a SourceFile,
+    file: FileId,
+    lexer: Lexer<'a>,
+    pending: Option<Lexeme>,
+    /// The lines are statements, not declarations.
+    in_program: bool,
+    /// The tokens of the current line.
+    pub(crate) tokens: Vec<Lexeme>,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(source: &'a SourceFile, file: FileId, in_program: bool) -> Lines<'a> {
+        let lexer = Lexer::new(&source.text, if in_program { &SECTION_WORDS } else { &DECLARATION_WORDS });
+        Lines { source, file, lexer, pending: None, in_program, tokens: Vec::new() }
+    }
+
+    pub(crate) fn declarations(source: &'a SourceFile, file: FileId) -> Lines<'a> {
+        Lines::new(source, file, false)
+    }
+
+    /// Switches between the words of declarations and those of programs, for a composite's body.
+    pub(crate) fn set_words(&mut self, in_body: bool) {
+        self.in_program = in_body;
+        self.lexer.set_words(if in_body { &SECTION_WORDS } else { &DECLARATION_WORDS });
+    }
+
+    /// The rest of the text after the current line.
+    pub(crate) fn position(&self) -> u32 {
+        self.tokens.last().map_or(0, |lexeme| lexeme.end)
+    }
+
+    /// Goes on at a byte of the text.
+    pub(crate) fn jump(&mut self, byte: u32) {
+        self.pending = None;
+        self.lexer.jump(byte);
+    }
+
+    /// Reads the next line that is not blank. `Some(true)`: it is broken in a way that was already reported.
+    pub(crate) fn next_line(&mut self, diagnostics: &mut Vec<Diagnostic>) -> Option<bool> {
+        self.tokens.clear();
+        let mut open: Vec<Lexeme> = Vec::new();
+        let mut open_text = false;
+        let mut bad = Bad::default();
+        let (mut equals, mut colon) = (None, false);
+        while let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) {
+            match lexeme.token {
+                Token::Newline if open.is_empty() && self.tokens.is_empty() => continue,
+                Token::Newline if open.is_empty() => break,
+                Token::Newline if self.starts_statement() => break,
+                Token::Newline => continue,
+                Token::LeftParen => open.push(lexeme),
+                Token::RightParen => drop(open.pop()),
+                Token::Colon => colon = true,
+                Token::Equals if open.is_empty() && equals.is_none() => equals = Some(self.tokens.len()),
+                Token::Key(Key::End) if self.tokens.is_empty() => {
+                    self.tokens.push(lexeme);
+                    return Some(false);
+                }
+                Token::OpenText => {
+                    open_text = true;
+                    diagnostics.push(unclosed_text(self.span(lexeme)));
+                }
+                Token::Bad => {
+                    let token = bad.meet(lexeme, self, diagnostics);
+                    self.push_replacement(token, lexeme, &mut open);
+                    if bad.skip > lexeme.end {
+                        self.jump(bad.skip);
+                    }
+                    continue;
+                }
+                Token::Dot if self.is_stray_dot(lexeme) => {
+                    diagnostic::warn(diagnostics, stray_dot(self.span(lexeme)));
+                    continue;
+                }
+                _ => {}
+            }
+            self.tokens.push(lexeme);
+        }
+        if self.tokens.is_empty() {
+            return None;
+        }
+        if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, self.in_program) {
+            equals.token = Token::Becomes;
+        }
+        // A string without its end has swallowed the parenthesis.
+        if let (Some(first), false) = (open.first(), open_text) {
+            self.report_unclosed(*first, diagnostics);
+        }
+        Some(bad.unknown || open_text || !open.is_empty())
+    }
+
+    /// The tokens as lalrpop wants them.
+    pub(super) fn tokens(&self) -> impl Iterator<Item = Result<(u32, Token, u32), ()>> + '_ {
+        self.tokens.iter().map(|lexeme| Ok((lexeme.start, lexeme.token, lexeme.end)))
+    }
+
+    pub(super) fn span(&self, lexeme: Lexeme) -> Span {
+        Span { file: self.file, start: lexeme.start, end: lexeme.end }
+    }
+
+    fn push_replacement(&mut self, token: Option<Token>, lexeme: Lexeme, open: &mut Vec<Lexeme>) {
+        let Some(token) = token else {
+            return;
+        };
+        match token {
+            Token::LeftParen => open.push(lexeme),
+            Token::RightParen => drop(open.pop()),
+            _ => {}
+        }
+        self.tokens.push(Lexeme { token, ..lexeme });
+    }
+
+    fn is_stray_dot(&self, dot: Lexeme) -> bool {
+        self.tokens.last().is_some_and(|last| last.token == Token::Real && last.end == dot.start)
+    }
+
+    /// Whether what follows a newline inside parentheses looks like a new statement:
+    /// `[number] [names] = code (`, `number [names] =`, a section or a clause word.
+    fn starts_statement(&self) -> bool {
+        let mut ahead = self.lexer.clone().map(|lexeme| lexeme.token).peekable();
+        if let Some(Token::Key(key)) = ahead.peek() {
+            return key.begins_line();
+        }
+        let numbered = ahead.next_if_eq(&Token::Int).is_some();
+        while ahead.next_if(|token| matches!(token, Token::Name | Token::Underscore)).is_some() {
+            if ahead.next_if_eq(&Token::Comma).is_none() {
+                break;
+            }
+        }
+        let equals = ahead.next_if_eq(&Token::Equals).is_some();
+        equals && (numbered || !is_named_argument(ahead))
+    }
+
+    fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::UNCLOSED,
+                self.span(open),
+                "expected `)`, found the next statement or the end of the file",
+            )
+            .help("close this parenthesis"),
+        );
+    }
+}
+
+/// Whether what stands behind `K =` is the value of a named argument, and neither a call nor an expression.
+fn is_named_argument(mut ahead: std::iter::Peekable<impl Iterator<Item = Token>>) -> bool {
+    let signed = ahead.next_if(|token| matches!(token, Token::Plus | Token::Minus)).is_some();
+    match ahead.next() {
+        Some(Token::Name) if signed => false,
+        Some(Token::Name) => !matches!(ahead.peek(), Some(Token::LeftParen)) && !ahead.peek().is_some_and(is_sign),
+        Some(Token::Int | Token::Real) => !ahead.peek().is_some_and(is_sign),
+        Some(Token::LeftParen) => false,
+        Some(_) | None => true,
+    }
+}
+
+/// Whether a token between two operands makes an expression of them.
+pub(super) fn is_sign(token: &Token) -> bool {
+    match token {
+        Token::Plus | Token::Minus | Token::Star | Token::Slash => true,
+        _ => is_comparison(*token),
+    }
+}
+
+pub(super) fn is_comparison(token: Token) -> bool {
+    matches!(token, Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ)
+}
+
+fn unclosed_text(span: Span) -> Diagnostic {
+    Diagnostic::new(codes::UNCLOSED_STRING, span, "expected a closing `\"` on the same line, found the end of the line")
+        .help("close the string")
+}
+
+fn stray_dot(span: Span) -> Diagnostic {
+    Diagnostic::new(codes::STRAY_DOT, span, "expected `,` or `)` after a real, found a second dot")
+        .help("the dot is ignored; delete it")
+}
+
+/// Characters without a meaning, reported once for each run of them.
+#[derive(Default)]
+struct Bad {
+    last_end: Option<u32>,
+    /// One past the second byte of a character of two bytes.
+    skip: u32,
+    unknown: bool,
+}
+
+impl Bad {
+    /// Reports the character and returns the ASCII token it stands for.
+    fn meet(&mut self, lexeme: Lexeme, lines: &Lines<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Token> {
+        let continues = self.last_end == Some(lexeme.start);
+        self.last_end = Some(lexeme.end);
+        let text = &lines.source.text[lexeme.start as usize..];
+        let character = text.chars().next().unwrap_or(NOT_TEXT);
+        let twin = if character == NOT_TEXT { self.bytes_twin(lexeme, lines.source) } else { ascii_of(character) };
+        let token = twin.and_then(token_of);
+        self.unknown |= token.is_none() && twin != Some(' ');
+        if !continues || twin.is_some() {
+            let end = if character == NOT_TEXT && twin.is_some() { self.skip } else { lexeme.end };
+            diagnostics.push(bad_character(character, twin, lines.span(Lexeme { end, ..lexeme }), lines.source));
+        }
+        token
+    }
+
+    fn bytes_twin(&mut self, lexeme: Lexeme, source: &SourceFile) -> Option<char> {
+        let raw = source.raw.as_deref()?;
+        let first = *raw.get(lexeme.start as usize)?;
+        let twin = ascii_of_bytes(first, *raw.get(lexeme.start as usize + 1)?)?;
+        self.skip = lexeme.start + 2;
+        Some(twin)
+    }
+}
+
+fn bad_character(character: char, twin: Option<char>, span: Span, source: &SourceFile) -> Diagnostic {
+    let found = match character {
+        NOT_TEXT => match source.raw.as_deref().and_then(|raw| raw.get(span.start as usize)) {
+            Some(byte) => format!("the byte 0x{byte:02x}"),
+            None => "a control character".to_owned(),
+        },
+        c if c.is_control() => format!("the control character 0x{:02x}", c as u32),
+        c if c.is_whitespace() => format!("U+{:04X}", c as u32),
+        c => format!("`{c}`"),
+    };
+    match twin {
+        Some(' ') => {
+            Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found another one ({found})"))
+                .help("type an ordinary blank; any text is free in comments, after `!`")
+        }
+        Some(twin) => Diagnostic::new(
+            codes::BAD_CHARACTER,
+            span,
+            format!("expected ASCII `{twin}`, found its full-width form ({found})"),
+        )
+        .help(format!("type `{twin}` with the input method off")),
+        None => Diagnostic::new(
+            codes::BAD_CHARACTER,
+            span,
+            format!("expected a name, a number or punctuation, found {found}"),
+        )
+        .help("outside comments only ASCII letters, digits and punctuation have a meaning"),
+    }
+}
