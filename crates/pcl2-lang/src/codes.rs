@@ -51,6 +51,8 @@ pub const UNREADABLE: Code = error("P0008");
 pub const UNCLOSED_STRING: Code = error("P0009");
 /// An expression that nests too deep.
 pub const TOO_DEEP: Code = error("P0010");
+/// A comment behind an expression that begins as another language's "not equal".
+pub const NOT_EQUAL: Code = error("P0011");
 
 // P01xx: names and numbers.
 

@@ -91,12 +91,27 @@ impl<'a> Lines<'a> {
         }
         if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, self.in_program) {
             equals.token = Token::Becomes;
+            self.report_not_equal(diagnostics);
         }
         // A string without its end has swallowed the parenthesis.
         if let (Some(first), false) = (open.first(), open_text) {
             self.report_unclosed(*first, diagnostics);
         }
         Some(bad.unknown || open_text || !open.is_empty())
+    }
+
+    /// `a != b` is `a` and a comment; whoever writes it behind an expression means another thing.
+    fn report_not_equal(&self, diagnostics: &mut Vec<Diagnostic>) {
+        let end = self.position();
+        let behind = self.source.text.get(end as usize..).unwrap_or_default();
+        let blanks = behind.len() - behind.trim_start_matches([' ', '\t']).len();
+        if behind[blanks..].starts_with("!=") {
+            let start = end + blanks as u32;
+            let span = Span { file: self.file, start, end: start + 2 };
+            let message = "expected `<>` for not equal, found `!=`, and `!` begins a comment";
+            let report = Diagnostic::new(codes::NOT_EQUAL, span, message);
+            diagnostics.push(report.help("write `<>`; or put a blank behind the `!` of a comment"));
+        }
     }
 
     /// The tokens as lalrpop wants them.
