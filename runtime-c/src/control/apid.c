@@ -246,7 +246,7 @@ PCL2_KERNEL void pcl2_apid(struct pcl2_apid *self, pcl2_real y, pcl2_real w, int
         const pcl2_real u = pcl2_apid_move(self, v, inh, dnh);
         pcl2_real followed = u;
         if (state != PCL2_FOLLOWING) {
-            followed = pcl2_held_back(state, back[0], &step, u);
+            followed = pcl2_held_back(state, back[0], self->u, &step, u);
         } else if (self->external && !pcl2_is_bad(back[0])) {
             followed = back[0];
         }

@@ -39,15 +39,16 @@ static inline int32_t pcl2_follows(int32_t *wait, const pcl2_real *bk, pcl2_real
     return 1;
 }
 
-/* What is followed of u when the block downstream is limited at value. A step of the integral that goes further into
- * the limit becomes 0. */
-static inline pcl2_real pcl2_held_back(int32_t state, pcl2_real value, pcl2_real *step, pcl2_real u)
+/* What is followed of u when the block downstream is limited at value; last is the u that it answers. Where it follows
+ * last, a step of the integral that goes further into the limit becomes 0: it would go on for ever. Where something else
+ * decides (value is not last), the step stays, and back-calculation bounds it: u comes to rest beside value, by P. */
+static inline pcl2_real pcl2_held_back(int32_t state, pcl2_real value, pcl2_real last, pcl2_real *step, pcl2_real u)
 {
     if (state == PCL2_LIMITED_HIGH) {
-        *step = *step > PCL2_R(0.0) ? PCL2_R(0.0) : *step;
+        *step = *step > PCL2_R(0.0) && (value > last || pcl2_has_come(last, value)) ? PCL2_R(0.0) : *step;
         return value < u ? value : u;
     }
-    *step = *step < PCL2_R(0.0) ? PCL2_R(0.0) : *step;
+    *step = *step < PCL2_R(0.0) && (value < last || pcl2_has_come(last, value)) ? PCL2_R(0.0) : *step;
     return value > u ? value : u;
 }
 

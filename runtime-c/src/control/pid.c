@@ -156,7 +156,7 @@ PCL2_KERNEL void pcl2_pid(struct pcl2_pid *self, pcl2_real y, pcl2_real w, int32
     } else {
         pcl2_real step = self->ki * (sp - y);
         const pcl2_real u = pcl2_limited(v, self->lo, self->hi);
-        const pcl2_real followed = state == PCL2_FOLLOWING ? u : pcl2_held_back(state, back[0], &step, u);
+        const pcl2_real followed = state == PCL2_FOLLOWING ? u : pcl2_held_back(state, back[0], self->u, &step, u);
         pcl2_accumulate(&self->i, &self->carry, step + self->kt * (followed - v));
         self->d = d;
         self->y1 = y;
