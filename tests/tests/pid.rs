@@ -263,3 +263,35 @@ fn a_master_in_a_slow_section_closes_the_cascade_without_a_bump() {
     let moved = (226..300).map(|scan| (u[scan] - u[scan - 1]).abs()).fold(0.0, f64::max);
     assert!(moved < 0.2, "{moved}");
 }
+
+/// Flow under an override by pressure; the pressure is far from its limit, or not.
+const OVERRIDE: &str = "PLANT\n1 F = first ( S : 0.2, 0.2, )\n2 P = first ( S : 0.05, 0.05, )\nCONTROL\n\
+                        3 FIC = pid ( y = F, back = S.bk1 : K = 2., Ti = 5. )\n\
+                        4 limit = msc ( : 70. )\n5 PIC = pid ( y = P, w = limit, back = S.bk2 : K = 2., Ti = 20. )\n\
+                        6 S = ovr ( FIC, PIC, 2 : low )\nEND\n";
+
+#[test]
+fn the_loser_of_an_override_rests_beside_the_winner_and_neither_throttles_it_nor_takes_turns() {
+    let sets = "--period 0.5 --steps 900 --set FIC.w=30 --set FIC.w=60@150 --set FIC.w=90@300";
+    let (trace, _) = Loop::new(OVERRIDE).run(sets, None);
+    let (flow, loser, idx) = (trace.values("F"), trace.values("PIC"), trace.values("S.idx"));
+    // u + K e = 30 + 2 (70 - 30) is above the limit of 100.
+    assert!(loser[299] > 95.0, "{}", loser[299]);
+    assert!(flow[300..320].iter().any(|y| *y > 57.0), "the step is not throttled: {:?}", &flow[300..320]);
+    let turns = idx.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    assert!(turns <= 3, "{turns} changes of the controller that acts");
+    assert!((trace.values("P")[899] - 70.0).abs() < 1.0, "the pressure's controller holds its limit");
+}
+
+#[test]
+fn a_limiter_holds_its_limit_and_the_master_does_not_go_on() {
+    let program = "PLANT\n1 F = first ( V : 0.5, 0.5, )\n2 L = first ( F : 0.02, 0.02, )\nCONTROL\n\
+                   3 LIC = pid ( y = L, back = FIC.bk : K = 3., Ti = 60. )\n\
+                   4 FIC = pid ( y = F, cas = LIC, back = V.bk : K = 0.8, Ti = 3. )\n\
+                   5 V = hilim ( FIC : 0., 60. )\nEND\n";
+    let sets = "--period 0.5 --steps 1200 --set FIC.mode=cas --set LIC.w=90@50";
+    let (trace, _) = Loop::new(program).run(sets, None);
+    let (master, valve) = (trace.values("LIC"), trace.values("V"));
+    assert!(valve[400..].iter().all(|v| (v - 60.0).abs() < 0.5), "the valve stays at its limit");
+    assert!((master[1199] - master[800]).abs() < 3.0, "{} after {}", master[1199], master[800]);
+}
