@@ -295,3 +295,14 @@ fn a_limiter_holds_its_limit_and_the_master_does_not_go_on() {
     assert!(valve[400..].iter().all(|v| (v - 60.0).abs() < 0.5), "the valve stays at its limit");
     assert!((master[1199] - master[800]).abs() < 3.0, "{} after {}", master[1199], master[800]);
 }
+
+#[test]
+fn a_set_point_that_nobody_writes_is_no_fault() {
+    let folder = Loop::new("CONTROL\n1 y = ain ( : 0, 1, 1 )\n2 u = lone ( y : )\nEND\n");
+    let composite = "! A controller that nobody asked for a set-point.\nreal v = lone ( real y : )\nBODY\n\
+                     1 v = pid ( y : K = 2. )\nEND\n";
+    fs::write(folder.folder.path().join("lone.fc"), composite).unwrap();
+    let blocks = format!("--period 0.1 --steps 20 --blocks {}", folder.folder.path().display());
+    let (_, said) = folder.run(&blocks, Some("k,\"ain(0,1,1)\"\n0,40\n5,41\n"));
+    assert!(!said.contains("fault"), "{said}");
+}

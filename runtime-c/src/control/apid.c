@@ -139,11 +139,12 @@ static pcl2_real pcl2_apid_setpoint(struct pcl2_apid *self, pcl2_real y, pcl2_re
     }
     if (pcl2_is_bad(mode == PCL2_CAS ? cas : w)) {
         self->wait = 0;
-        self->status = pcl2_is_bad(self->ws) ? self->status : 3;
+        self->status = !pcl2_is_bad(self->ws) && (mode == PCL2_CAS || self->known) ? 3 : self->status;
         return pcl2_is_bad(self->ws) ? y : self->ws;
     }
     if (mode != PCL2_CAS) {
         self->wait = 0;
+        self->known = 1;
         return w;
     }
     if (apart || self->phase == PCL2_FRESH) {

@@ -75,13 +75,14 @@ static pcl2_real pcl2_pid_setpoint(struct pcl2_pid *self, pcl2_real y, pcl2_real
             return pcl2_pid_cascade(self, y, cas, state, bk);
         }
         self->wait = 0;
+        self->known = 1;
         return w;
     }
     self->wait = 0;
     if (pcl2_is_bad(self->ws)) {
         return y;
     }
-    self->status = 3;
+    self->status = mode == PCL2_CAS || self->known ? 3 : self->status;
     return self->ws;
 }
 
