@@ -11,6 +11,7 @@ import gpc
 
 T = 0.25
 NAN = math.nan
+PATIENCE = 1000
 FOLLOWING, HIGH, LOW, WAITING = 0, 1, 2, 3
 MAN, AUTO, CAS, TRACK, INIT = 0, 1, 2, 3, 4
 
@@ -24,7 +25,7 @@ def clamp(x, lo, hi):
 
 
 def come(x, asked):
-    return good(x) and abs(x - asked) <= 1e-5 * (abs(asked) + 1.0)
+    return good(x) and abs(x - asked) <= 1e-5 * abs(asked) + 1024.0 * 2.0**-52
 
 
 def told(back):
@@ -51,7 +52,7 @@ class Patience:
 
     def wait(self, now, x, asked):
         if now or not self.heard:
-            self.left = 16
+            self.left = PATIENCE
             return now
         if self.left:
             self.left = 0 if come(x, asked) else self.left - 1
@@ -455,7 +456,7 @@ class Digital:
         if not seen or not free:
             self.asked = self.y
             self.bk = (w, FOLLOWING) if self.e is None else (self.y, WAITING)
-            self.patience.left = 0 if self.e is None else 16
+            self.patience.left = 0 if self.e is None else PATIENCE
             return
         self.actual = AUTO
         if (state == HIGH and back[0] < self.u) or (state == LOW and back[0] > self.u):
