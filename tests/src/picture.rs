@@ -58,7 +58,7 @@ pub fn diagram(svg: &str) -> Diagram {
                 let (point, rest) = start(data);
                 found.ports.push((point, if rest.starts_with("l-") { -1 } else { 1 }));
             }
-            "stub" => found.flags.extend(pieces(data).concat()),
+            "lead" => found.flags.extend(pieces(data).concat()),
             _ => {}
         }
         if node.has_tag_name("text") {

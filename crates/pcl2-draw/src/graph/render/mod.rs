@@ -8,7 +8,7 @@ use super::sheets::Layout;
 use crate::svg::{self, escape};
 use pcl2_lang::program::{Program, SectionKind};
 use pcl2_lang::types::{Scalar, Shape};
-use shape::{DELAY, LABEL, POINT, ROW, SMALL, STUB};
+use shape::{DELAY, LABEL, LEAD, POINT, ROW, SMALL};
 use std::fmt::Write;
 
 /// Around the picture.
@@ -49,7 +49,7 @@ const STYLE: &str = "\
 .return{stroke:#98a2b3;stroke-width:1;stroke-dasharray:4 3;stroke-linecap:butt}
 .dot{fill:#1d2939}.dot.whole{fill:#175cd3;stroke:none}.dot.return{fill:#98a2b3;stroke:none}
 .arrow{fill:#1d2939}.arrow.return{fill:#98a2b3;stroke:none}
-.stub{stroke:#667085;stroke-width:1}
+.lead{stroke:#667085;stroke-width:1}
 .delay{fill:#fff4e5;stroke:#b54708;stroke-width:1}
 .z{font-size:9px;fill:#b54708}
 .cell{fill:#fffaeb;stroke:#b54708;stroke-width:.8}
@@ -343,7 +343,7 @@ fn put_delay(text: &mut String, (edge, y): (i32, i32), out: i32) {
     let left = near.min(near + out * DELAY.1);
     let _ = write!(
         text,
-        "<path class='stub' d='M{edge} {y}H{near}'/>\
+        "<path class='lead' d='M{edge} {y}H{near}'/>\
          <rect class='delay' x='{left}' y='{}' width='{}' height='14' rx='2'/>\
          <text class='z' x='{}' y='{}'>z<tspan dy='-3' font-size='7'>-1</tspan></text>",
         y - 7,
@@ -372,9 +372,9 @@ fn put_note(text: &mut String, list: &Netlist, pin: &Pin, (edge, y): (i32, i32),
         (Note::Cell(words), _) => (svg::brief(words, LABEL), "cell"),
         (Note::Word(words), _) => (svg::brief(words, LABEL), "word"),
     };
-    let near = start + out * STUB;
+    let near = start + out * LEAD;
     let width = svg::width(&words, SMALL);
-    let _ = write!(text, "<path class='stub' d='M{start} {y}H{near}'/>");
+    let _ = write!(text, "<path class='lead' d='M{start} {y}H{near}'/>");
     let room = match class {
         "" => 3,
         "cell" => {

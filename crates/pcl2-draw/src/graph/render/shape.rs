@@ -10,7 +10,7 @@ pub(crate) const SMALL: i32 = 9;
 /// The header's height, and the distance of two pins.
 pub(crate) const ROW: i32 = 20;
 /// From the box to a note or a flag.
-pub(crate) const STUB: i32 = 10;
+pub(crate) const LEAD: i32 = 10;
 /// The mark of a delay: distance from the box, and width.
 pub(crate) const DELAY: (i32, i32) = (12, 22);
 /// Letters of a tag, a code, a label, a flag that are shown.
@@ -99,11 +99,11 @@ fn beside(list: &Netlist, node: usize, side: Side) -> i32 {
 fn room(list: &Netlist, pin: &Pin) -> i32 {
     let note = match &pin.note {
         Note::Nothing => 0,
-        Note::Constant(text) => STUB + svg::width(&svg::brief(text, LABEL), SMALL) + 4,
-        Note::Cell(text) => STUB + svg::width(&svg::brief(text, LABEL), SMALL) + 12,
-        Note::Word(text) => STUB + svg::width(&svg::brief(text, LABEL), SMALL) + 12 + POINT,
+        Note::Constant(text) => LEAD + svg::width(&svg::brief(text, LABEL), SMALL) + 4,
+        Note::Cell(text) => LEAD + svg::width(&svg::brief(text, LABEL), SMALL) + 12,
+        Note::Word(text) => LEAD + svg::width(&svg::brief(text, LABEL), SMALL) + 12 + POINT,
     };
-    let flag = flag(list, pin).map_or(0, |text| STUB + svg::width(&text, SMALL) + 12 + POINT);
+    let flag = flag(list, pin).map_or(0, |text| LEAD + svg::width(&text, SMALL) + 12 + POINT);
     let element = if pin.element.is_empty() { 0 } else { svg::width(&pin.element, SMALL) + 12 };
     reach(pin) + note.max(flag).max(element)
 }
