@@ -5,7 +5,7 @@ use crate::sections::Sectioned;
 use pcl2_lang::codes;
 use pcl2_lang::decl::Direction;
 use pcl2_lang::diagnostic::{self, Diagnostic};
-use pcl2_lang::program::{SectionKind, SignalId, Source};
+use pcl2_lang::program::{SectionKind, Source};
 
 /// The parameter that says it.
 const ON_BAD: &str = "onbad";
@@ -59,7 +59,7 @@ fn reaching_an_output(sectioned: &Sectioned<'_>, scope: &Scope<'_>) -> Vec<bool>
     let mut reaching: Vec<bool> = scope.drafts.iter().map(is_end).collect();
     let mut open: Vec<usize> = (0..reaching.len()).filter(|block| reaching[*block]).collect();
     while let Some(block) = open.pop() {
-        for signal in scope.drafts[block].sources.iter().filter_map(signal_of) {
+        for signal in scope.drafts[block].sources.iter().filter_map(Source::signal) {
             for writer in &scope.wire(signal).writers {
                 let from = writer.block.0 as usize;
                 if !std::mem::replace(&mut reaching[from], true) {
@@ -69,11 +69,4 @@ fn reaching_an_output(sectioned: &Sectioned<'_>, scope: &Scope<'_>) -> Vec<bool>
         }
     }
     reaching
-}
-
-fn signal_of(source: &Source) -> Option<SignalId> {
-    match source {
-        Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
-        Source::Constant(_) | Source::Cell(_) => None,
-    }
 }

@@ -5,7 +5,7 @@ use crate::number::{MAX_NUMBER, numbered_ports};
 use crate::sections::Sectioned;
 use pcl2_lang::codes;
 use pcl2_lang::diagnostic::{self, Diagnostic};
-use pcl2_lang::program::{BlockId, Delay, SectionKind, SignalId, Source, Writer};
+use pcl2_lang::program::{BlockId, Delay, SectionKind, SignalId, Writer};
 use pcl2_lang::source::Span;
 
 /// Finds the delays of the program's own scope and warns of avoidable ones and of second writers.
@@ -41,15 +41,8 @@ pub(crate) fn delays(sectioned: &Sectioned<'_>, scope: &Scope<'_>, diagnostics: 
 /// The signals that a block reads, each once.
 fn signals_read(scope: &Scope<'_>, block: usize) -> impl Iterator<Item = SignalId> {
     let sources = &scope.drafts[block].sources;
-    let read = sources.iter().enumerate().filter_map(|(i, source)| Some((i, signal_of(source)?)));
-    read.filter(|(i, id)| !sources[..*i].iter().any(|earlier| signal_of(earlier) == Some(*id))).map(|(_, id)| id)
-}
-
-fn signal_of(source: &Source) -> Option<SignalId> {
-    match source {
-        Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
-        Source::Constant(_) | Source::Cell(_) => None,
-    }
+    let read = sources.iter().enumerate().filter_map(|(i, source)| Some((i, source.signal()?)));
+    read.filter(|(i, id)| !sources[..*i].iter().any(|earlier| earlier.signal() == Some(*id))).map(|(_, id)| id)
 }
 
 fn second_writers(scope: &Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
@@ -108,7 +101,7 @@ fn warn(scope: &Scope<'_>, delay: Delay, free: &mut FreeNumbers, diagnostics: &m
         return;
     };
     let writer = &scope.drafts[last.block.0 as usize];
-    let operand = reader.sources.iter().position(|source| signal_of(source) == Some(delay.signal));
+    let operand = reader.sources.iter().position(|source| source.signal() == Some(delay.signal));
     let span =
         operand.and_then(|i| reader.operands.get(i).copied().flatten()).map_or(reader.statement.span, |p| p.span);
     let message = format!(

@@ -161,11 +161,7 @@ fn open_returns(scope: &Scope<'_>) -> Vec<bool> {
     }
     let mut heard = vec![false; scope.wires.len()];
     let sources = scope.drafts.iter().flat_map(|draft| &draft.sources);
-    let read = sources.filter_map(|source| match source {
-        Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
-        Source::Constant(_) | Source::Cell(_) => None,
-    });
-    for id in read.chain(scope.outputs.iter().copied()) {
+    for id in sources.filter_map(Source::signal).chain(scope.outputs.iter().copied()) {
         heard[id.0 as usize] = true;
     }
     for draft in scope.drafts.iter().filter(|draft| answers(draft)) {

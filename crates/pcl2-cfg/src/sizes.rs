@@ -578,10 +578,10 @@ fn misfit<'a>(
     let text = input.sources.text(span);
     let message = format!("{}: `{}` of {code} needs {want}, `{text}` is {found}", draft.title(), port.name);
     let mut report = Diagnostic::new(codes::TYPE_DIFFERS, span, message);
-    if let Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) = source {
-        let wire = scope.wire(*id);
+    if let Some(id) = source.signal() {
+        let wire = scope.wire(id);
         if let Some(writer) = wire.writers.first().map(|writer| &scope.drafts[writer.block.0 as usize]) {
-            report = report.label(writer_span(writer, *id), format!("{} makes it {found}", writer.title()));
+            report = report.label(writer_span(writer, id), format!("{} makes it {found}", writer.title()));
         }
     }
     let int_to_real = want.scalar != found.scalar && want.is_scalar() && found.is_scalar();

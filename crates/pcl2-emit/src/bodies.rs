@@ -125,11 +125,9 @@ fn step_blocks(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>, sco
 fn used_ports(body: &Body<'_, '_>) -> Vec<bool> {
     let mut used = vec![false; body.layout.ports.len()];
     for (_, block) in body.blocks() {
-        for source in &block.ports {
-            if let Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) = source {
-                if let Store::Port(port) = body.layout.stores[id.0 as usize] {
-                    used[port as usize] |= body.unit.signal(*id).ty.elements() > 0;
-                }
+        for id in block.ports.iter().filter_map(Source::signal) {
+            if let Store::Port(port) = body.layout.stores[id.0 as usize] {
+                used[port as usize] |= body.unit.signal(id).ty.elements() > 0;
             }
         }
     }

@@ -533,12 +533,10 @@ fn read_early(unit: &Unit) -> Vec<bool> {
         early[signal.0 as usize] = true;
     }
     for (b, block) in unit.blocks.iter().enumerate() {
-        for source in &block.ports {
-            if let Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) = source {
-                let first = unit.signal(*id).writers.first();
-                early[id.0 as usize] |= first.is_none_or(|writer| writer.block.0 as usize >= b);
-                read[id.0 as usize] = true;
-            }
+        for id in block.ports.iter().filter_map(Source::signal) {
+            let first = unit.signal(id).writers.first();
+            early[id.0 as usize] |= first.is_none_or(|writer| writer.block.0 as usize >= b);
+            read[id.0 as usize] = true;
         }
     }
     early.iter().zip(read).map(|(early, read)| *early || !read).collect()

@@ -91,7 +91,7 @@ impl<'a> Border<'a> {
         let unit = program.main();
         let mut readers = vec![Vec::new(); unit.signals.len()];
         for (b, block) in unit.blocks.iter().enumerate() {
-            for id in block.ports.iter().filter_map(read) {
+            for id in block.ports.iter().filter_map(Source::signal) {
                 readers[id.0 as usize].push(b as u32);
             }
         }
@@ -143,13 +143,6 @@ impl<'a> Border<'a> {
         } else {
             Role::Wire
         }
-    }
-}
-
-fn read(source: &Source) -> Option<SignalId> {
-    match source {
-        Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
-        Source::Constant(_) | Source::Cell(_) => None,
     }
 }
 

@@ -271,6 +271,16 @@ impl Program {
     }
 }
 
+impl Source {
+    /// The signal that is read, whole or an element of it.
+    pub fn signal(&self) -> Option<SignalId> {
+        match self {
+            Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
+            Source::Constant(_) | Source::Cell(_) => None,
+        }
+    }
+}
+
 impl Unit {
     /// A signal.
     pub fn signal(&self, id: SignalId) -> &Signal {
