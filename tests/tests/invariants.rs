@@ -45,14 +45,15 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
 // 0. Dependencies point down.
 
 /// What each crate may depend on.
-const ARROWS: [(&str, &[&str]); 7] = [
+const ARROWS: [(&str, &[&str]); 8] = [
     ("pcl2-lang", &[]),
     ("pcl2-cfg", &["pcl2-lang"]),
+    ("pcl2-net", &["pcl2-lang"]),
     ("pcl2-emit", &["pcl2-lang"]),
     ("pcl2-sim", &["pcl2-lang"]),
     ("pcl2-draw", &["pcl2-lang"]),
-    ("pcl2-cli", &["pcl2-lang", "pcl2-cfg", "pcl2-emit", "pcl2-sim", "pcl2-draw"]),
-    ("xtask", &["pcl2-lang", "pcl2-cfg", "pcl2-emit", "pcl2-sim"]),
+    ("pcl2-cli", &["pcl2-lang", "pcl2-cfg", "pcl2-net", "pcl2-emit", "pcl2-sim", "pcl2-draw"]),
+    ("xtask", &["pcl2-lang", "pcl2-cfg", "pcl2-net", "pcl2-emit", "pcl2-sim"]),
 ];
 
 #[test]
