@@ -46,6 +46,7 @@ fn meaning(bytes: &[u8]) -> Option<String> {
         catalogue: &catalogue,
         files: &FxHashMap::default(),
         options: &options,
+        alone: None,
     };
     let program = pcl2_cfg::compile(&input, &mut diagnostics)?;
     if diagnostics.iter().any(Diagnostic::is_error) {

@@ -6,7 +6,9 @@ use pcl2_lang::ast::Statement;
 use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
 use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::net::Net;
 use pcl2_lang::program::UnitId;
+use pcl2_lang::types::Type;
 use rustc_hash::FxHashMap;
 
 /// Composites nest at most so deep.
@@ -74,11 +76,28 @@ fn body<'a>(
     let mut scope = Scope::new(statements, Some((decl, sizes)));
     crate::complete(input, &mut scope, composites, diagnostics);
     refuse_images(&scope, diagnostics);
+    check_conditions(&scope, diagnostics);
     composites.open.pop();
     let index = composites.bodies.len();
     composites.bodies.push(scope);
     composites.by_key.insert(key, index);
     Some(index)
+}
+
+/// A condition of a net is a truth value.
+fn check_conditions(scope: &Scope<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let net = scope.owner.as_ref().and_then(|(decl, _)| decl.net.as_deref());
+    for condition in net.map(Net::conditions).unwrap_or_default() {
+        let Some(draft) = scope.drafts.get(condition.0 as usize).filter(|draft| !draft.spoiled) else {
+            continue;
+        };
+        let result = draft.outputs.first().and_then(|id| scope.wire(*id).ty);
+        if result.is_some_and(|ty| ty != Type::INT) {
+            let message = "expected a truth value as condition, found a real";
+            let report = Diagnostic::new(codes::CONDITION, draft.statement.code.span, message);
+            diagnostics.push(report.help("compare it: `x > 0.`"));
+        }
+    }
 }
 
 /// The process image belongs to the program: a composite gets its values by ports.

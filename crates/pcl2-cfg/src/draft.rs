@@ -54,6 +54,8 @@ pub(crate) struct Scope<'a> {
     pub(crate) by_name: NameTable,
     /// The signal of a tag's output, by the output's name.
     pub(crate) members: FxHashMap<(Symbol, String), SignalId>,
+    /// Of a net: names that stand for an element of a signal, as those of its boxes do.
+    pub(crate) elements: FxHashMap<Symbol, (SignalId, u32)>,
     /// Blocks and ports by number.
     pub(crate) by_number: NumberTable,
     pub(crate) cells: Vec<Cell>,
@@ -135,6 +137,7 @@ impl<'a> Scope<'a> {
             wires: Vec::new(),
             by_name: NameTable::default(),
             members: FxHashMap::default(),
+            elements: FxHashMap::default(),
             by_number: NumberTable::default(),
             cells: Vec::new(),
             spoiled: FxHashSet::default(),
@@ -161,8 +164,11 @@ impl Draft<'_> {
         self.statement.outputs.first().map_or(self.statement.code.span, |output| output.span())
     }
 
-    /// `block 6`
+    /// `block 6`; in a net, whose statements have no numbers that a reader sees, `the statement`.
     pub(crate) fn title(&self) -> String {
-        format!("block {}", self.number)
+        match self.statement.number {
+            Some((_, span)) if span == self.statement.span => "the statement".to_owned(),
+            _ => format!("block {}", self.number),
+        }
     }
 }

@@ -221,9 +221,10 @@ fn operands<'a>(
         let place = scope.drafts[index].operands.get(next).copied().flatten();
         let ty = match (&source, place) {
             (Source::Constant(value), _) => constant_type(value),
-            (Source::Element(id, _), Some(place)) => {
+            (Source::Element(id, found), Some(place)) => {
                 let whole = scope.wire(*id).ty.filter(|_| !scope.wire(*id).spoiled);
-                let found = whole.and_then(|ty| Some((ty, element(scope, *id, ty, &place.value, diagnostics)?)));
+                let found =
+                    whole.and_then(|ty| Some((ty, element(scope, *id, ty, (&place.value, *found), diagnostics)?)));
                 let Some((whole, flat)) = found else {
                     sound = false;
                     continue;

@@ -13,6 +13,7 @@
 //!
 //! What is wrong is reported once and marked as spoiled; nothing that depends on it is checked.
 
+mod alone;
 mod bind;
 mod composite;
 mod draft;
@@ -32,6 +33,7 @@ mod sections;
 mod signals;
 mod sizes;
 
+pub use alone::tree as net_tree;
 pub use files::{FileText, wanted_files};
 pub use inner::check_ranges as check_inner_ranges;
 pub use period::check_period;
@@ -40,6 +42,7 @@ pub use renumber::{Edit, edited, renumber};
 use composite::Composites;
 use draft::Scope;
 use pcl2_lang::catalogue::Catalogue;
+use pcl2_lang::decl::Decl;
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::program::Program;
 use pcl2_lang::source::{FileId, Sources, Span};
@@ -105,6 +108,8 @@ pub struct Input<'a> {
     pub files: &'a FxHashMap<String, FileText>,
     /// What was decided elsewhere.
     pub options: &'a Options,
+    /// The program is this net: its inputs come from outside, its outputs go there.
+    pub alone: Option<&'a Decl>,
 }
 
 /// Compiles a tree. `None` when there are errors.
@@ -124,7 +129,10 @@ pub fn compile(input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<P
     let delays = order::delays(&sectioned, &scope, diagnostics);
     returns::missing(&scope, diagnostics);
     onbad::unsaid(&sectioned, &scope, input.symbols, diagnostics);
-    let program = seal::seal(input, &sectioned, scope, composites, delays);
+    let mut program = seal::seal(input, &sectioned, scope, composites, delays);
+    if let Some(net) = input.alone {
+        alone::name(&mut program, net);
+    }
     // Pass 5 has judged the program's own blocks; composites add theirs.
     if program.units.len() > 1 && verify::bytes(&program).is_none_or(|bytes| bytes > verify::MAX_PROGRAM) {
         let whole = Span { file: input.file, start: 0, end: 0 };

@@ -2,7 +2,7 @@
 
 use crate::draft::{Draft, Scope};
 use pcl2_lang::codes;
-use pcl2_lang::decl::{Decl, OutputDecl, RETURN_OUTPUT};
+use pcl2_lang::decl::{Decl, OutputDecl};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
 use rustc_hash::FxHashSet;
@@ -60,7 +60,7 @@ pub(crate) fn numbered_ports(draft: &Draft<'_>) -> u32 {
 
 /// A return wire is reached by name only.
 pub(crate) fn takes_number(output: &OutputDecl) -> bool {
-    output.name != RETURN_OUTPUT
+    !output.by_name
 }
 
 fn ports_of(output: &OutputDecl, sizes: &[i32]) -> usize {

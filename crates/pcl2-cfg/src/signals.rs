@@ -6,9 +6,10 @@ use crate::draft::{Draft, Scope, Wire};
 use crate::number::{output_count, output_names, takes_number};
 use pcl2_lang::ast::{Item as Place, Name, Number, Operand, Output};
 use pcl2_lang::codes;
-use pcl2_lang::decl::{Decl, PortDecl};
+use pcl2_lang::decl::{Decl, PortDecl, TypeExpr};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
+use pcl2_lang::net::BOX_OUTPUT;
 use pcl2_lang::program::{BlockId, Cell, CellId, Role, SignalId, Source, Tracked, Writer};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
@@ -16,7 +17,9 @@ use pcl2_lang::types::{Real, Type, Value};
 
 /// Connects outputs and ports of a scope.
 pub(crate) fn connect<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
+    crate::alone::inputs(input, scope);
     own_ports(scope, input);
+    own_words(scope, input);
     for i in writing_order(input, scope) {
         outputs(input, scope, i, diagnostics);
     }
@@ -46,6 +49,73 @@ pub(crate) fn writing_order(input: &Input<'_>, scope: &Scope<'_>) -> Vec<usize> 
 fn has_initialize(input: &Input<'_>, scope: &Scope<'_>) -> bool {
     use pcl2_lang::ast::Line;
     scope.owner.is_none() && input.tree.lines.iter().any(|line| matches!(line, Line::Initialize(_)))
+}
+
+/// What belongs to a box of a net: it is written `box.attribute`.
+fn owned(
+    input: &Input<'_>,
+    scope: &Scope<'_>,
+    owner: Name,
+    name: Name,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<SignalId> {
+    let text = input.symbols.text(name.symbol);
+    let found = scope.members.get(&(owner.symbol, text.to_owned())).copied();
+    if found.is_none() {
+        let known = attributes(scope, owner);
+        let message = format!("expected an attribute of `{}`, found `{text}`", input.symbols.text(owner.symbol));
+        let help = suggest::help(text, known.iter().map(String::as_str));
+        let help = help.unwrap_or_else(|| match known.is_empty() {
+            true => "its tokens are plain: give the box a class by OF".to_owned(),
+            false => format!("its attributes are {}", known.join(", ")),
+        });
+        diagnostics.push(Diagnostic::new(codes::NET_NAME, name.span, message).help(help));
+    }
+    found
+}
+
+/// The names under which a box's attributes are known.
+fn attributes(scope: &Scope<'_>, owner: Name) -> Vec<String> {
+    let keys = scope.members.keys().filter(|(symbol, _)| *symbol == owner.symbol);
+    let mut names: Vec<String> = keys.map(|(_, name)| name.clone()).collect();
+    names.sort();
+    names
+}
+
+/// What a net keeps in signals stands behind its ports; its boxes are elements of one of them.
+fn own_words<'a>(scope: &mut Scope<'a>, input: &Input<'a>) {
+    let Some((decl, net)) = scope.owner.as_ref().and_then(|(decl, _)| Some((*decl, decl.net.as_deref()?))) else {
+        return;
+    };
+    for signal in net.signals() {
+        let id = SignalId(scope.wires.len() as u32);
+        let symbol = input.symbols.find(signal.owner.as_deref().unwrap_or(&signal.name));
+        let name = match (&signal.owner, symbol) {
+            (Some(owner), Some(symbol)) => {
+                scope.members.insert((symbol, signal.name.clone()), id);
+                format!("{owner}.{}", signal.name)
+            }
+            (None, Some(symbol)) => {
+                scope.by_name.insert(symbol, id);
+                signal.name.clone()
+            }
+            (_, None) => signal.name.clone(),
+        };
+        scope.wires.push(Wire {
+            name,
+            ty: Some(signal.ty),
+            spoiled: false,
+            writers: Vec::new(),
+            role: Role::Held,
+            span: decl.span,
+        });
+    }
+    let tokens = SignalId(scope.wires.iter().position(|wire| wire.name == BOX_OUTPUT).unwrap_or(0) as u32);
+    for (i, place) in net.boxes.iter().enumerate() {
+        if let Some(symbol) = input.symbols.find(&place.name) {
+            scope.elements.insert(symbol, (tokens, i as u32));
+        }
+    }
 }
 
 /// A composite's own ports are signals without a writer.
@@ -94,7 +164,7 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
         scope.drafts[index].spoiled = true;
         let surplus = statement.outputs[count..].iter().filter_map(|output| match output {
             Output::Name(name) => Some(name.symbol),
-            Output::Discard(_) => None,
+            Output::Member(..) | Output::Discard(_) => None,
         });
         scope.spoiled.extend(surplus);
     }
@@ -105,7 +175,7 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
     };
     let first = match statement.outputs.first() {
         Some(Output::Name(name)) => Some(*name),
-        Some(Output::Discard(_)) | None => None,
+        Some(Output::Member(..) | Output::Discard(_)) | None => None,
     };
     let block = BlockId(index as u32);
     let number = scope.drafts[index].number;
@@ -117,6 +187,13 @@ fn outputs<'a>(input: &Input<'a>, scope: &mut Scope<'a>, index: usize, diagnosti
         let numbered = declared.is_some_and(takes_number);
         let id = match (statement.outputs.get(o), if numbered { tag } else { first }) {
             (Some(Output::Name(name)), _) => named(input, scope, *name),
+            (Some(Output::Member(owner, name)), _) => match owned(input, scope, *owner, *name, diagnostics) {
+                Some(id) => id,
+                None => {
+                    scope.drafts[index].spoiled = true;
+                    push_wire(scope, String::new(), name.span)
+                }
+            },
             (None, Some(tag)) => member(input, scope, tag, port),
             (Some(Output::Discard(span)), _) => push_wire(scope, String::new(), *span),
             (None, None) if statement.outputs.is_empty() && numbered => {
@@ -148,7 +225,7 @@ fn spoil_names(scope: &mut Scope<'_>, index: usize) {
         .iter()
         .filter_map(|output| match output {
             Output::Name(name) => Some(*name),
-            Output::Discard(_) => None,
+            Output::Member(..) | Output::Discard(_) => None,
         })
         .collect();
     let number = draft.number;
@@ -251,15 +328,32 @@ impl<'a> Wirer<'_, 'a> {
             if let Some(size) = owner.sizes.iter().position(|size| size.name == text) {
                 return sizes.get(size).map(|value| Source::Constant(Value::Int(*value)));
             }
-            if owner.params.iter().any(|param| param.name == text) {
+            if owner.params.iter().any(|param| param.name == text) && owner.net.is_none() {
                 let message = format!("expected a variable in an expression, found the parameter `{text}`");
                 let help = format!("put it on a wire: `c = msc ( : {text} )`, and use c here");
                 self.diagnostics.push(Diagnostic::new(codes::VALUE_KIND, name.span, message).help(help));
                 return None;
             }
         }
+        if let Some(source) = self.of_net(name) {
+            return Some(source);
+        }
         self.unknown_variable(name, &[]);
         None
+    }
+
+    /// In a net: the tokens of a box, or the net's own parameter.
+    fn of_net(&self, name: Name) -> Option<Source> {
+        let owner = self.scope.owner.as_ref().map(|(decl, _)| *decl).filter(|decl| decl.net.is_some())?;
+        if let Some((id, element)) = self.scope.elements.get(&name.symbol) {
+            return Some(Source::Element(*id, *element));
+        }
+        let text = self.input.symbols.text(name.symbol);
+        let index = owner.params.iter().position(|param| param.name == text)?;
+        match owner.params[index].ty {
+            TypeExpr::Scalar(scalar) => Some(Source::Own(index as u32, scalar)),
+            TypeExpr::Vector(..) | TypeExpr::Matrix(..) | TypeExpr::Text | TypeExpr::Time => None,
+        }
     }
 
     fn source(&mut self, decl: &Decl, port: &PortDecl, index: u32, operand: Option<&Place>) -> Option<Source> {
@@ -316,6 +410,9 @@ impl<'a> Wirer<'_, 'a> {
         if let Some(id) = self.scope.by_name.get(name.symbol) {
             return Some(Source::Signal(id));
         }
+        if let Some(source) = self.of_net(name) {
+            return Some(source);
+        }
         let text = self.input.symbols.text(name.symbol);
         if let Some(value) = port.tail.names.iter().position(|known| known == text) {
             return Some(Source::Constant(Value::Int(value as i32)));
@@ -344,6 +441,9 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn element(&mut self, name: Name, indexes: &[(i32, Span)]) -> Option<Source> {
+        if let Some((id, element)) = self.indexed_box(name, indexes) {
+            return Some(Source::Element(id, element));
+        }
         let Some(id) = self.scope.by_name.get(name.symbol) else {
             self.unknown_variable(name, &[]);
             return None;
@@ -355,6 +455,18 @@ impl<'a> Wirer<'_, 'a> {
         }
         // Pass 5 fills in the element, when the type is known.
         Some(Source::Element(id, 0))
+    }
+
+    /// In a net: the tokens of a box with an index in its name.
+    fn indexed_box(&self, name: Name, indexes: &[(i32, Span)]) -> Option<(SignalId, u32)> {
+        let [(index, _)] = indexes else {
+            return None;
+        };
+        if self.scope.elements.is_empty() {
+            return None;
+        }
+        let text = format!("{}[{index}]", self.input.symbols.text(name.symbol));
+        self.input.symbols.find(&text).and_then(|symbol| self.scope.elements.get(&symbol)).copied()
     }
 
     /// The first block that has this name alone for all its outputs.
@@ -387,6 +499,11 @@ impl<'a> Wirer<'_, 'a> {
         let text = self.input.symbols.text(member.symbol);
         if let Some(index) = names.iter().position(|name| name == text) {
             return draft.outputs.get(index).map(|id| Source::Signal(*id));
+        }
+        for (output, declared) in decl.outputs.iter().enumerate() {
+            if let Some(element) = declared.elements.iter().position(|name| name == text) {
+                return draft.outputs.get(output).map(|id| Source::Element(*id, element as u32));
+            }
         }
         let message = format!("expected an output of {}, found `{text}`", decl.name);
         let help = if decl.params.iter().any(|param| param.name == text) {

@@ -9,7 +9,8 @@ use pcl2_lang::codes;
 use pcl2_lang::decl::{Decl, Expr, PortDecl, TypeExpr};
 use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::kernel;
-use pcl2_lang::program::{SignalId, Source};
+use pcl2_lang::net::BOX_OUTPUT;
+use pcl2_lang::program::{Role, SignalId, Source};
 use pcl2_lang::source::Span;
 use pcl2_lang::types::{MAX_ELEMENTS, Shape, Type, Value};
 use pcl2_lang::verify::{MAX_PROGRAM, declared_bytes, fits};
@@ -331,6 +332,7 @@ pub(crate) fn source_shape(scope: &Scope<'_>, source: &Source) -> Found {
             other => other,
         },
         Source::Constant(value) => Found::Type(constant_type(value)),
+        Source::Own(_, scalar) => Found::Type(Type { scalar: *scalar, shape: Shape::Scalar }),
         Source::Cell(id) => Found::Type(scope.cells[id.0 as usize].ty),
     }
 }
@@ -482,11 +484,11 @@ fn check_port<'a>(
     let Found::Type(mut found) = source_shape(scope, &source) else {
         return;
     };
-    if let (Source::Element(id, _), Some(place)) = (&source, operand) {
+    if let (Source::Element(id, known), Some(place)) = (&source, operand) {
         let Some(whole) = scope.wire(*id).ty else {
             return;
         };
-        let Some(element) = element(scope, *id, whole, &place.value, diagnostics) else {
+        let Some(element) = element(scope, *id, whole, (&place.value, *known), diagnostics) else {
             scope.drafts[index].spoiled = true;
             return;
         };
@@ -520,14 +522,18 @@ pub(crate) fn element(
     scope: &Scope<'_>,
     id: SignalId,
     whole: Type,
-    operand: &Operand,
+    (operand, known): (&Operand, u32),
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<u32> {
-    let Operand::Element(element) = operand else {
-        return None;
-    };
-    let (name, indexes) = &**element;
     let wire = scope.wire(id);
+    // The elements of what a net keeps have names of their own, and were found by them.
+    let Operand::Element(element) = operand else {
+        return Some(known);
+    };
+    if wire.name == BOX_OUTPUT && wire.role == Role::Held {
+        return Some(known);
+    }
+    let (name, indexes) = &**element;
     let mut complain = |span: Span, message: String| {
         diagnostics.push(
             Diagnostic::new(codes::INDEX_RANGE, span, message).label(wire.span, format!("`{}` is {whole}", wire.name)),
@@ -598,7 +604,11 @@ fn check_written<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut
     };
     for name in crate::number::output_names(decl, &sizes) {
         let id = input.symbols.find(&name).and_then(|symbol| scope.by_name.get(symbol));
-        let Some(id) = id.filter(|id| !scope.wire(*id).writers.is_empty() || scope.wire(*id).spoiled) else {
+        let written = |id: &SignalId| {
+            let wire = scope.wire(*id);
+            !wire.writers.is_empty() || wire.spoiled || wire.role == Role::Held
+        };
+        let Some(id) = id.filter(written) else {
             let message = format!("expected a statement that writes the output `{name}` of {}, found none", decl.name);
             diagnostics.push(Diagnostic::new(codes::BAD_DECLARATION, decl.span, message));
             continue;

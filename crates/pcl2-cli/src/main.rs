@@ -10,6 +10,7 @@ mod explain;
 mod fmt;
 mod graph;
 mod io;
+mod nets;
 mod new;
 mod outcome;
 mod output;

@@ -3,6 +3,7 @@
 use crate::args::CommonArgs;
 use crate::config::{self, Config};
 use crate::console;
+use crate::nets;
 use crate::outcome::Outcome;
 use pcl2_cfg::{FileText, Input, Options, wanted_files};
 use pcl2_lang::catalogue::{Catalogue, UserFile};
@@ -22,7 +23,7 @@ use std::path::{Component, Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The largest source file in bytes.
-const MAX_SOURCE: u64 = 256 << 20;
+pub(crate) const MAX_SOURCE: u64 = 256 << 20;
 /// The largest parameter file in bytes.
 pub(crate) const MAX_PARAMETERS: u64 = 64 << 20;
 
@@ -74,9 +75,9 @@ fn load_for(path: &Path, common: &CommonArgs, purpose: Use, replaced: Option<Vec
     let place = loader.place(path);
     let width = common.real.map(crate::args::Real::width).or(place.config.width).unwrap_or_default();
     let period = period(common, &place.config, &mut loader.diagnostics)?;
-    let catalogue = loader.catalogue(&place, common);
+    let mut catalogue = loader.catalogue(&place, common);
     let (verified, lines) = match place.source {
-        Some(file) => loader.compile(file, &place, &catalogue, common, (width, period), purpose),
+        Some(file) => loader.compile(file, &place, &mut catalogue, common, (width, period), purpose),
         None => (None, 0),
     };
     let mut diagnostics = loader.diagnostics;
@@ -167,15 +168,21 @@ struct Place {
     config: Config,
 }
 
+/// Reads what a program is made of.
 #[derive(Default)]
-struct Loader {
-    sources: Sources,
-    symbols: Symbols,
-    diagnostics: Vec<Diagnostic>,
+pub(crate) struct Loader {
+    /// All texts.
+    pub(crate) sources: Sources,
+    /// All names.
+    pub(crate) symbols: Symbols,
+    /// Everything there is to say.
+    pub(crate) diagnostics: Vec<Diagnostic>,
     kernels: Vec<(String, String)>,
     timings: Vec<(&'static str, Duration)>,
     /// Stands for the source's text.
     replaced: Option<Vec<u8>>,
+    /// The folders in which nets are looked for.
+    pub(crate) net_folders: Vec<PathBuf>,
 }
 
 impl Loader {
@@ -244,6 +251,7 @@ impl Loader {
     }
 
     fn user_blocks(&mut self, folder: &Path, named: Option<Span>, catalogue: &mut Catalogue) {
+        self.net_folders.push(folder.to_path_buf());
         let names = match sorted_names(folder) {
             Ok(names) => names,
             Err(error) => {
@@ -284,15 +292,27 @@ impl Loader {
         &mut self,
         file: FileId,
         place: &Place,
-        catalogue: &Catalogue,
+        catalogue: &mut Catalogue,
         common: &CommonArgs,
         (width, period): (Width, Option<i64>),
         purpose: Use,
     ) -> (Option<Verified>, usize) {
         let clock = Instant::now();
-        let tree = syntax::parse(&self.sources, file, &mut self.symbols, &mut self.diagnostics);
-        self.timings.push(("parse", clock.elapsed()));
+        self.net_folders.insert(0, place.root.clone());
         let lines = self.sources.file(file).lines();
+        let alone = place.path.as_deref().is_some_and(nets::is_net);
+        let tree = match alone {
+            true => nets::tree(self, file, &place.stem, catalogue),
+            false => Some(syntax::parse(&self.sources, file, &mut self.symbols, &mut self.diagnostics)),
+        };
+        self.timings.push(("parse", clock.elapsed()));
+        let Some(tree) = tree else {
+            return (None, lines);
+        };
+        if !alone {
+            nets::wanted(self, &tree, catalogue);
+        }
+        let catalogue = &*catalogue;
         let files = parameter_files(&wanted_files(&tree, &self.sources), &place.root);
         let options = Options {
             name: place.config.name.clone().unwrap_or_else(|| place.stem.clone()),
@@ -310,6 +330,7 @@ impl Loader {
             catalogue,
             files: &files,
             options: &options,
+            alone: catalogue.find(&place.stem).filter(|_| alone),
         };
         let clock = Instant::now();
         let program = pcl2_cfg::compile(&input, &mut self.diagnostics);
@@ -347,7 +368,9 @@ impl Loader {
         place: &Place,
         common: &CommonArgs,
     ) -> Vec<pcl2_cfg::Edit> {
-        let catalogue = self.catalogue(place, common);
+        let mut catalogue = self.catalogue(place, common);
+        self.net_folders.insert(0, place.root.clone());
+        nets::wanted(self, tree, &mut catalogue);
         let options = Options {
             name: place.stem.clone(),
             period: None,
@@ -364,6 +387,7 @@ impl Loader {
             catalogue: &catalogue,
             files: &FxHashMap::default(),
             options: &options,
+            alone: None,
         };
         pcl2_cfg::renumber(&input, &mut self.diagnostics).unwrap_or_default()
     }

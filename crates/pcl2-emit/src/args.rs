@@ -252,6 +252,8 @@ impl<'c, 'a> Call<'c, 'a> {
                 expr::constant(out, self.cx, statics, value, place);
             }
             Source::Cell(cell) => expr::cell(out, self.cx, self.scope(), *cell),
+            // Own parameters on wires are scalars.
+            Source::Own(..) => {}
         }
     }
 

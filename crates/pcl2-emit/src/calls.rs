@@ -164,6 +164,8 @@ fn gather_one(out: &mut String, call: &Call<'_, '_>, source: &Source, ty: Type, 
                 out.push_str(";\n");
             }
         }
+        // Own parameters on wires are scalars.
+        Source::Own(..) => {}
         Source::Cell(cell) => {
             copy(
                 out,
@@ -231,6 +233,7 @@ fn doubtful<'a>(call: &Call<'_, 'a>) -> Vec<&'a Source> {
             }
             Source::Cell(id) => call.body().cells[id.0 as usize].ty.scalar == Scalar::Real,
             Source::Constant(value) => matches!(value, Value::Real(real) if !real.wide.is_finite()),
+            Source::Own(_, scalar) => *scalar == Scalar::Real,
         };
         if real && !leaves.contains(&source) {
             leaves.push(source);

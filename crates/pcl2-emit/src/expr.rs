@@ -186,6 +186,10 @@ pub(crate) fn source_value(out: &mut String, cx: &Context<'_>, scope: Scope<'_>,
             convert(out, unit.cells[id.0 as usize].ty.scalar);
             cell(out, cx, scope, *id);
         }
+        Source::Own(own, found) => {
+            convert(out, *found);
+            out.extend([scope.root, &cx.unit_layout(scope.unit).params[*own as usize]]);
+        }
     }
 }
 

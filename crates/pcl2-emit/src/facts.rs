@@ -112,6 +112,11 @@ pub(crate) fn of_body(
             Some(inner) => add_body(&mut facts, block, code, &known[inner.0 as usize].facts),
             None => add_kernel(&mut facts, block, &kernels[block.decl.0 as usize]),
         }
+        for source in &block.ports {
+            if let Source::Own(own, _) = source {
+                facts.hot[*own as usize] = true;
+            }
+        }
         let inner = block.unit.map_or_else(Scratch::default, |inner| known[inner.0 as usize].facts.scratch);
         facts.scratch = facts.scratch.max(of_block(unit, block, code, inner));
     }

@@ -482,7 +482,7 @@ fn border(program: &Program) -> Border<'_> {
         match signal.role {
             Role::Input => border.inputs.push((inputs.name(&signal.name), crossing)),
             Role::Output => border.outputs.push((outputs.name(&signal.name), crossing)),
-            Role::Wire | Role::Port(_) => {}
+            Role::Wire | Role::Port(_) | Role::Held => {}
         }
     }
     for (i, image) in program.images.iter().enumerate() {
@@ -518,6 +518,7 @@ fn stores_inside(unit: &Unit, codes: &[Code<'_>]) -> Vec<Store> {
     let early = read_early(unit);
     let store = |(i, signal): (usize, &Signal)| match (signal.role, store_of(signal)) {
         (Role::Port(port), _) => Store::Port(port),
+        (Role::Held, _) => Store::Slot(0),
         (Role::Wire, Store::Own(block, _)) if !early[i] && is_temporary(unit, codes, block) => Store::Local(block),
         (Role::Wire | Role::Input | Role::Output, store) => store,
     };

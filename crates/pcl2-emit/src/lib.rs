@@ -40,6 +40,7 @@ pub use runtime::files as runtime_files;
 
 use context::Context;
 use pcl2_lang::decl::Decl;
+use pcl2_lang::program::Program;
 use pcl2_lang::source::Sources;
 use pcl2_lang::verify::Verified;
 
@@ -78,7 +79,13 @@ pub struct Sizes {
     pub points: usize,
 }
 
-/// Emits a program.
+/// A net of the program: the emitter has no C for nets.
+pub fn net_of(program: &Program) -> Option<&str> {
+    let used = program.units.iter().filter_map(|unit| unit.composite.as_ref());
+    used.map(|(decl, _)| program.decl(*decl)).find(|decl| decl.net.is_some()).map(|decl| decl.name.as_str())
+}
+
+/// Emits a program without nets.
 pub fn emit(verified: &Verified, sources: &Sources, options: &Options<'_>) -> Emitted {
     let mut files = Vec::new();
     let mut emitted = emit_each(verified, sources, options, &mut |path, text| files.push((path, text)));

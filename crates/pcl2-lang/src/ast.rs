@@ -1,5 +1,7 @@
 //! What was written, before anything is known of its meaning.
 
+pub mod net;
+
 use crate::source::Span;
 use crate::symbol::Symbol;
 use crate::types::Real;
@@ -55,6 +57,25 @@ impl Statement {
         Statement { number, outputs, code, formula: None, items, inputs, colon, span }
     }
 
+    /// A call with operands by position and without parameters.
+    pub fn call(outputs: Box<[Output]>, code: Name, inputs: Vec<Operand>) -> Statement {
+        let span = code.span;
+        let empty = [Operand::Empty];
+        let count = inputs.len().max(1) as u32;
+        let inputs = if inputs.is_empty() { vec![Operand::Empty] } else { inputs };
+        let items = inputs.into_iter().chain(empty).map(|value| Item { label: None, value, span }).collect();
+        Statement::new(Some((1, span)), outputs, code, (items, count), (span, span))
+    }
+
+    /// A statement with one operand as its expression: a value that is asked for.
+    pub fn value(value: Operand, code: Name) -> Statement {
+        let span = code.span;
+        let items = Box::new([Item { label: None, value, span }]);
+        let mut statement = Statement::new(None, Box::new([]), code, (items, 1), (span, span));
+        statement.formula = Some(Box::new(Formula(vec![Term::Operand])));
+        statement
+    }
+
     /// The input list; an empty list has one empty item. Of an expression the operands in order.
     pub fn inputs(&self) -> &[Item] {
         &self.items[..self.inputs as usize]
@@ -85,6 +106,8 @@ pub enum Term {
 pub enum Output {
     /// A variable.
     Name(Name),
+    /// `box.attribute`: in nets only.
+    Member(Name, Name),
     /// `_`: discarded.
     Discard(Span),
 }
@@ -94,6 +117,7 @@ impl Output {
     pub fn span(self) -> Span {
         match self {
             Output::Name(name) => name.span,
+            Output::Member(name, member) => name.span.to(member.span),
             Output::Discard(span) => span,
         }
     }

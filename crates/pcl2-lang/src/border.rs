@@ -248,7 +248,7 @@ impl<'a> Cutter<'a> {
             Source::Copied(id) => signal(id).map(Source::Copied),
             Source::Element(id, element) => signal(id).map(|id| Source::Element(id, *element)),
             Source::Cell(id) => self.cell_ids[id.0 as usize].map(Source::Cell),
-            Source::Constant(_) => None,
+            Source::Constant(_) | Source::Own(..) => None,
         };
         moved.unwrap_or_else(|| port.clone())
     }

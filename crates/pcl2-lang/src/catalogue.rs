@@ -88,6 +88,16 @@ impl Catalogue {
         }
     }
 
+    /// Adds a net; it wins over a function code of the catalogue.
+    pub fn add_net(&mut self, decl: Decl, diagnostics: &mut Vec<Diagnostic>) {
+        self.add(decl, diagnostics);
+    }
+
+    /// Remembers a name of which nothing is known.
+    pub fn spoil(&mut self, name: &str) {
+        self.spoiled.insert(name.to_owned());
+    }
+
     fn add(&mut self, decl: Decl, diagnostics: &mut Vec<Diagnostic>) {
         if let Some(known) = self.by_name.get(&decl.name).map(|index| &self.decls[*index]) {
             let (code, message) = if decl.user && !known.user {

@@ -125,6 +125,27 @@ pub const MISSING_RETURN: Code = warning("P0305");
 /// A truth value made of a real reaches an output and does not say what it is when the real is bad.
 pub const ON_BAD: Code = warning("P0306");
 
+// P04xx: nets.
+
+/// A box, gate, part, output or attribute that the net does not have.
+pub const NET_NAME: Code = error("P0401");
+/// Two things of a net have one name.
+pub const NET_NAME_TAKEN: Code = error("P0402");
+/// A token comes from nowhere or goes nowhere.
+pub const ROUTE: Code = error("P0403");
+/// More tokens than a box can hold.
+pub const CAPACITY: Code = error("P0404");
+/// Tokens of another class.
+pub const TOKEN_CLASS: Code = error("P0405");
+/// A part that cannot stand there.
+pub const PART: Code = error("P0406");
+/// An output that is driven and written, or neither.
+pub const DRIVE: Code = error("P0407");
+/// A line or clause of a net that is missing, repeated or in the wrong place.
+pub const NET_LINE: Code = error("P0408");
+/// A condition that is no truth value.
+pub const CONDITION: Code = error("P0409");
+
 // P05xx: declarations, configuration and target.
 
 /// A declaration file does not follow the notation.

@@ -3,6 +3,7 @@
 //! Everything that the compiler knows of a block it reads here: the binding of calls, types and sizes,
 //! the C prototype ([`crate::kernel`]), ranges, tunable parameters, memory, documentation.
 
+use crate::net::Net;
 use crate::program::DeclId;
 use crate::source::Span;
 use crate::types::{Real, Scalar, Value};
@@ -68,6 +69,8 @@ pub struct Decl {
     pub examples: Vec<Example>,
     /// The statements of a composite.
     pub body: Option<Vec<crate::ast::Statement>>,
+    /// Of a net: when its statements run, and where its tokens are.
+    pub net: Option<Box<Net>>,
     /// Of an expression: what is done with its ports, in the order in which it is computed.
     pub formula: Option<Vec<Step>>,
 }
@@ -141,6 +144,10 @@ pub struct OutputDecl {
     pub group: Option<Group>,
     /// Unit, range or names.
     pub tail: Tail,
+    /// It takes no number and no place in the list of outputs: it is reached through a tag.
+    pub by_name: bool,
+    /// The names of a vector's elements, where they have some.
+    pub elements: Vec<String>,
 }
 
 /// The size of a group of ports.
@@ -339,6 +346,7 @@ impl Decl {
             operator: None,
             examples: Vec::new(),
             body: None,
+            net: None,
             formula: None,
         }
     }
@@ -357,7 +365,15 @@ impl Decl {
         };
         decl.items = operands.iter().enumerate().map(|operand| Item::Port(Box::new(port(operand)))).collect();
         let (name, ty) = ("y".to_owned(), TypeExpr::Scalar(result));
-        decl.outputs.push(OutputDecl { name, ty, inout: false, group: None, tail: Tail::default() });
+        decl.outputs.push(OutputDecl {
+            name,
+            ty,
+            inout: false,
+            group: None,
+            tail: Tail::default(),
+            by_name: false,
+            elements: Vec::new(),
+        });
         decl.inline = true;
         decl.bad = Some(BadRule::Algebraic);
         decl.formula = Some(formula);

@@ -2,7 +2,7 @@
 
 use logos::Logos;
 
-/// A token of `.cfg` and `.fc` files. Values stand in the text.
+/// A token of `.cfg`, `.fc` and `.net` files. Values stand in the text.
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
 #[logos(skip r"[ \t]+")]
 #[logos(skip(r"![^\r\n]*", allow_greedy = true))]
@@ -90,6 +90,9 @@ pub enum Token {
     /// `<>`
     #[token("<>")]
     Differ,
+    /// `->`
+    #[token("->")]
+    Arrow,
     /// The `=` before an expression; never produced by the lexer itself.
     Becomes,
     /// A reserved word of the file's kind; never produced by the lexer itself.
@@ -98,7 +101,7 @@ pub enum Token {
     Bad,
 }
 
-/// Reserved words: the sections of `.cfg`, the words of `.fc`.
+/// Reserved words: the sections of `.cfg`, the words of `.fc` and of `.net`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Key {
@@ -138,6 +141,50 @@ pub enum Key {
     Example,
     After,
     Body,
+    And,
+    Or,
+    Not,
+    Momentary,
+    Modes,
+    Local,
+    Class,
+    State,
+    Capacity,
+    Timer,
+    Count,
+    Operation,
+    Signal,
+    Process,
+    Generate,
+    Entry,
+    Exit,
+    Macro,
+    Module,
+    Gate,
+    If,
+    Else,
+    Then,
+    New,
+    Nothing,
+    Do,
+    Until,
+    Within,
+    When,
+    Of,
+    Size,
+    Order,
+    Marked,
+    Drives,
+    Read,
+    Inhibit,
+    Priority,
+    Permit,
+    Stop,
+    Abort,
+    Active,
+    For,
+    Next,
+    Upto,
 }
 
 impl Key {
@@ -151,13 +198,27 @@ impl Key {
                 true
             }
             Key::Inline | Key::Simulated | Key::Operator | Key::Example | Key::After | Key::Body => true,
+            Key::And | Key::Or | Key::Not | Key::New | Key::Nothing | Key::Of | Key::Size | Key::Order => false,
+            Key::Marked | Key::Drives | Key::Read | Key::Inhibit | Key::Priority | Key::Permit => false,
+            Key::Stop | Key::Until | Key::Within | Key::When | Key::Upto => false,
+            Key::Momentary | Key::Modes | Key::Local | Key::Class => true,
+            Key::State | Key::Capacity | Key::Timer | Key::Count | Key::Operation | Key::Signal | Key::Process => true,
+            Key::Generate | Key::Entry | Key::Exit | Key::Macro | Key::Module | Key::Gate | Key::If | Key::Else => true,
+            Key::Then | Key::Do | Key::Abort | Key::Active | Key::For | Key::Next => true,
         }
     }
 }
 
-/// The section words: reserved in `.cfg` files.
-pub const SECTION_WORDS: [(&str, Key); 4] =
-    [("INITIALIZE", Key::Initialize), ("PLANT", Key::Plant), ("CONTROL", Key::Control), ("END", Key::End)];
+/// The section words and those of expressions: reserved in `.cfg` files.
+pub const SECTION_WORDS: [(&str, Key); 7] = [
+    ("INITIALIZE", Key::Initialize),
+    ("PLANT", Key::Plant),
+    ("CONTROL", Key::Control),
+    ("END", Key::End),
+    ("AND", Key::And),
+    ("OR", Key::Or),
+    ("NOT", Key::Not),
+];
 
 /// The words of declarations: reserved in `.fc` files.
 pub const DECLARATION_WORDS: [(&str, Key); 33] = [
@@ -194,6 +255,59 @@ pub const DECLARATION_WORDS: [(&str, Key); 33] = [
     ("EXAMPLE", Key::Example),
     ("AFTER", Key::After),
     ("BODY", Key::Body),
+];
+
+/// The words of nets: reserved in `.net` files.
+pub const NET_WORDS: [(&str, Key); 49] = [
+    ("END", Key::End),
+    ("int", Key::Int),
+    ("real", Key::Real),
+    ("AFTER", Key::After),
+    ("TO", Key::Upto),
+    ("MOMENTARY", Key::Momentary),
+    ("MODES", Key::Modes),
+    ("START", Key::Start),
+    ("LOCAL", Key::Local),
+    ("CLASS", Key::Class),
+    ("STATE", Key::State),
+    ("CAPACITY", Key::Capacity),
+    ("TIME", Key::Timer),
+    ("COUNT", Key::Count),
+    ("OPERATION", Key::Operation),
+    ("SIGNAL", Key::Signal),
+    ("PROCESS", Key::Process),
+    ("GENERATE", Key::Generate),
+    ("ENTRY", Key::Entry),
+    ("EXIT", Key::Exit),
+    ("MACRO", Key::Macro),
+    ("MODULE", Key::Module),
+    ("GATE", Key::Gate),
+    ("IF", Key::If),
+    ("ELSE", Key::Else),
+    ("THEN", Key::Then),
+    ("NEW", Key::New),
+    ("nothing", Key::Nothing),
+    ("DO", Key::Do),
+    ("UNTIL", Key::Until),
+    ("WITHIN", Key::Within),
+    ("WHEN", Key::When),
+    ("OF", Key::Of),
+    ("SIZE", Key::Size),
+    ("ORDER", Key::Order),
+    ("MARKED", Key::Marked),
+    ("DRIVES", Key::Drives),
+    ("READ", Key::Read),
+    ("INHIBIT", Key::Inhibit),
+    ("PRIORITY", Key::Priority),
+    ("PERMIT", Key::Permit),
+    ("STOP", Key::Stop),
+    ("ABORT", Key::Abort),
+    ("ACTIVE", Key::Active),
+    ("FOR", Key::For),
+    ("NEXT", Key::Next),
+    ("AND", Key::And),
+    ("OR", Key::Or),
+    ("NOT", Key::Not),
 ];
 
 /// A token and its place.

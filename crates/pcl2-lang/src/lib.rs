@@ -16,6 +16,7 @@ pub mod kernel;
 pub mod lexer;
 pub mod manual;
 pub mod model;
+pub mod net;
 pub mod program;
 pub mod render;
 pub mod source;

@@ -2,6 +2,7 @@
 
 use crate::decl::{Decl, Direction, OutputDecl, PortDecl, RETURN_OUTPUT, Tail, TypeExpr};
 use crate::kernel;
+use crate::net::BOX_OUTPUT;
 use crate::program::{Block, BlockId, CellId, DeclId, ImageId, Param, Program, Role, SignalId, Unit, UnitId};
 use crate::types::{Scalar, Type, Value};
 use rustc_hash::FxHashMap;
@@ -57,6 +58,8 @@ pub struct Point {
     pub unit: Option<String>,
     /// The names of an enumeration's values.
     pub names: Vec<String>,
+    /// The names of a vector's elements, where they have some: they stand in the place of [`BOX_OUTPUT`].
+    pub elements: Vec<String>,
 }
 
 /// All points of a program, in a fixed order: signals, image, parameters, cells, memory.
@@ -73,6 +76,7 @@ pub fn points(program: &Program) -> Vec<Point> {
             access: seen.access,
             unit: tail.unit,
             names: tail.names,
+            elements: seen.elements.to_vec(),
         });
     });
     points
@@ -97,6 +101,16 @@ pub struct Seen<'s> {
     pub tail: Option<&'s Tail>,
     /// The declaration behind it, and the values of its sizes.
     pub declared: Option<(DeclId, &'s [i32])>,
+    /// As [`Point::elements`].
+    pub elements: &'s [String],
+}
+
+impl Point {
+    /// The name of an element that has one of its own: `tank.S0`.
+    pub fn element_name(&self, element: u32) -> Option<String> {
+        let name = self.elements.get(element as usize)?;
+        Some(format!("{}{name}", self.name.strip_suffix(BOX_OUTPUT).unwrap_or(&self.name)))
+    }
 }
 
 /// Shows all points in the order of [`points`], for programs with too many to keep.
@@ -162,7 +176,7 @@ fn signals(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
             let block = program.main().block(writer.block);
             let decl = program.decl(block.decl);
             let index = output_decl(decl, &block.sizes, writer.output as usize)?;
-            Some((&decl.outputs[index].tail, block))
+            Some((&decl.outputs[index], block))
         });
         see(Seen {
             name: &signal.name,
@@ -171,7 +185,8 @@ fn signals(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
             ty: signal.ty,
             time: false,
             access,
-            tail: written.map(|(tail, _)| tail),
+            tail: written.map(|(output, _)| &output.tail),
+            elements: written.map_or(&[], |(output, _)| output.elements.as_slice()),
             declared: written.map(|(_, block)| (block.decl, block.sizes.as_slice())),
         });
     }
@@ -212,6 +227,7 @@ fn images(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
             access: if image.direction == Direction::In { Access::Image } else { Access::Signal },
             tail: None,
             declared: None,
+            elements: &[],
         });
     }
 }
@@ -235,6 +251,7 @@ fn parameters(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
                 access: Access::Tunable,
                 tail: Some(&param.tail),
                 declared: Some((block.decl, &block.sizes)),
+                elements: &[],
             });
         }
     }
@@ -253,6 +270,7 @@ fn cells(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
             access: Access::Operator,
             tail: port.map(|port| &port.tail),
             declared: Some((block.decl, &block.sizes)),
+            elements: &[],
         });
     }
 }
@@ -305,6 +323,7 @@ fn fields(decl: &Decl, block: &Block, path: &[BlockId], prefix: &mut String, see
             access: Access::State,
             tail: None,
             declared: Some((block.decl, &block.sizes)),
+            elements: &[],
         });
         prefix.truncate(length);
     }

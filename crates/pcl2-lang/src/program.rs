@@ -160,6 +160,8 @@ pub enum Role {
     Output,
     /// Inside a composite: its own input port with this index (groups expanded).
     Port(u32),
+    /// Inside a net: a word with a place of its own, whoever writes it.
+    Held,
 }
 
 /// One block: a call of a function code.
@@ -202,6 +204,8 @@ pub enum Source {
     Constant(Value),
     /// An operator cell.
     Cell(CellId),
+    /// In a net's body: the net's own scalar parameter with this index.
+    Own(u32, Scalar),
 }
 
 /// The value of a parameter.
@@ -276,7 +280,7 @@ impl Source {
     pub fn signal(&self) -> Option<SignalId> {
         match self {
             Source::Signal(id) | Source::Copied(id) | Source::Element(id, _) => Some(*id),
-            Source::Constant(_) | Source::Cell(_) => None,
+            Source::Constant(_) | Source::Cell(_) | Source::Own(..) => None,
         }
     }
 }

@@ -215,6 +215,7 @@ fn source_type(unit: &Unit, source: &Source) -> Result<Type, Defect> {
             Ok(Type { scalar: ty.scalar, shape: crate::types::Shape::Scalar })
         }
         Source::Constant(value) => Ok(value_type(value)),
+        Source::Own(_, scalar) => Ok(Type { scalar: *scalar, shape: crate::types::Shape::Scalar }),
         Source::Cell(id) => {
             unit.cells.get(id.0 as usize).map(|cell| cell.ty).ok_or_else(|| Defect("a cell does not exist".to_owned()))
         }

@@ -1,5 +1,9 @@
-//! Petri nets: what is asked of a net before it runs.
+//! Petri nets: the `.net` front end, and what is asked of a net before it runs.
 //!
-//! Nothing here touches files, clocks or the terminal.
+//! A net becomes a function code: its declaration has the head's ports, outputs and parameters, its statements as body,
+//! and when they run as [`pcl2_lang::net::Net`]. Nothing here touches files, clocks or the terminal.
 
+mod check;
 pub mod pt;
+
+pub use check::{compile, wanted};

@@ -128,6 +128,196 @@ pub(crate) enum Op {
     Carry { from: usize, to: usize },
     /// Counts a fault of a block if there is one.
     Fault { at: usize, block: u32 },
+    /// One scan of a net and of those in it: so many of the plan's nets from `first`.
+    Net { first: usize, count: usize },
+}
+
+/// The result of a statement of a net.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Answer {
+    /// It has none.
+    None,
+    /// An int.
+    Int(usize),
+    /// A real.
+    Real(usize),
+}
+
+/// A statement of a net.
+#[derive(Clone, Debug)]
+pub(crate) struct Script {
+    /// What is done, on the tape of statements.
+    pub(crate) ops: Range<usize>,
+    /// Its result.
+    pub(crate) answer: Answer,
+    /// The reals that it reads: a condition over a bad one is not true.
+    pub(crate) reals: Vec<usize>,
+}
+
+/// A net, in places instead of pointers.
+#[derive(Clone, Debug)]
+pub(crate) struct NetPlan {
+    /// The table.
+    pub(crate) table: Vec<i32>,
+    /// box, taken, filled, used, phase, by, hold, since, ints, reals, wrote, active, active_since, lost, conflicts.
+    pub(crate) arrays: Vec<Slot>,
+    /// Where each word is.
+    pub(crate) words: Vec<usize>,
+    /// Where the attributes of tokens in hand are.
+    pub(crate) hands: Vec<usize>,
+    /// The nets inside.
+    pub(crate) parts: Vec<usize>,
+    /// Its statements.
+    pub(crate) scripts: Vec<Script>,
+    /// What takes in its inputs, on the tape of statements.
+    pub(crate) latch: Range<usize>,
+    /// Where its status is.
+    pub(crate) status: usize,
+    /// The period of its scans, nanoseconds.
+    pub(crate) period: i64,
+}
+
+/// `struct pcl2_net`
+#[repr(C)]
+struct Player {
+    table: *const i32,
+    arrays: [*mut c_void; ROW],
+    words: *const *mut c_void,
+    hands: *const *mut c_void,
+    wrote: *mut c_void,
+    active: *mut c_void,
+    active_since: *mut c_void,
+    parts: *const *mut Player,
+    now: i64,
+    status: *mut i32,
+    lost: *mut c_void,
+    conflicts: *mut c_void,
+    act: unsafe extern "C" fn(*mut c_void, i32) -> i32,
+    duration: unsafe extern "C" fn(*mut c_void, i32) -> i64,
+    host: *mut c_void,
+}
+
+/// How many of a net's arrays stand one after the other in `struct pcl2_net`: from `box` to `reals`.
+const ROW: usize = 10;
+
+unsafe extern "C" {
+    fn pcl2_net_boxes(net: *mut Player);
+    fn pcl2_net_gates(net: *mut Player);
+    fn pcl2_net_commit(net: *mut Player);
+    fn pcl2_net_levels(net: *mut Player);
+    fn pcl2_net_nanoseconds(seconds: *const f64) -> i64;
+    fn pcl2f_net_boxes(net: *mut Player);
+    fn pcl2f_net_gates(net: *mut Player);
+    fn pcl2f_net_commit(net: *mut Player);
+    fn pcl2f_net_levels(net: *mut Player);
+    fn pcl2f_net_nanoseconds(seconds: *const f32) -> i64;
+}
+
+/// The result of a statement as a pointer.
+#[derive(Clone, Copy)]
+enum Returned {
+    None,
+    Int(*const i32),
+    Wide(*const f64),
+    Narrow(*const f32),
+}
+
+struct BareScript {
+    ops: Range<usize>,
+    answer: Returned,
+    reals: Vec<*const c_void>,
+}
+
+/// What the player's calls back find: one for each net, never moved.
+struct Host {
+    player: Player,
+    tape: *const Bare,
+    scripts: Vec<BareScript>,
+    latch: Range<usize>,
+    period: i64,
+    width: Width,
+    _lists: [Vec<*mut c_void>; 2],
+    _parts: Vec<*mut Player>,
+    _table: Vec<i32>,
+}
+
+/// Runs a statement: of a condition its truth.
+unsafe extern "C" fn act(host: *mut c_void, script: i32) -> i32 {
+    // SAFETY: the player hands back the host that it was given, and indexes of its own table.
+    unsafe {
+        let host = host.cast::<Host>();
+        let script: *const BareScript = (*host).scripts.as_ptr().add(script as usize);
+        for i in (*script).ops.clone() {
+            perform(&*(*host).tape.add(i));
+        }
+        let bad = |at: &*const c_void| match (*host).width {
+            Width::F64 => !(*at.cast::<f64>()).is_finite(),
+            Width::F32 => !(*at.cast::<f32>()).is_finite(),
+        };
+        let truth = match (*script).answer {
+            Returned::None => false,
+            Returned::Int(at) => *at != 0,
+            Returned::Wide(at) => *at != 0.0,
+            Returned::Narrow(at) => *at != 0.0,
+        };
+        i32::from(truth && !(*script).reals.iter().any(bad))
+    }
+}
+
+/// The value of a statement, seconds, as nanoseconds.
+unsafe extern "C" fn duration(host: *mut c_void, script: i32) -> i64 {
+    // SAFETY: as for `act`.
+    unsafe {
+        act(host, script);
+        let host = host.cast::<Host>();
+        let script: *const BareScript = (*host).scripts.as_ptr().add(script as usize);
+        match (*script).answer {
+            Returned::None => 0,
+            Returned::Int(at) => i64::from(*at).max(0).saturating_mul(1_000_000_000),
+            Returned::Wide(at) => pcl2_net_nanoseconds(at),
+            Returned::Narrow(at) => pcl2f_net_nanoseconds(at),
+        }
+    }
+}
+
+/// One scan of a net and of those in it, outer ones first.
+unsafe fn play(hosts: &[*mut Host], tape: &[Bare]) {
+    // SAFETY: as for `Bound::run`; each host lives in a box of its own.
+    unsafe {
+        for host in hosts {
+            for op in &tape[(**host).latch.clone()] {
+                perform(op);
+            }
+            *(**host).player.status = 0;
+            phase(*host, pcl2_net_boxes, pcl2f_net_boxes);
+        }
+        for host in hosts {
+            phase(*host, pcl2_net_gates, pcl2f_net_gates);
+        }
+        for host in hosts {
+            phase(*host, pcl2_net_commit, pcl2f_net_commit);
+        }
+        for host in hosts.iter().rev() {
+            phase(*host, pcl2_net_levels, pcl2f_net_levels);
+            (**host).player.now = (**host).player.now.saturating_add((**host).period);
+            if (**host).player.status != (*hosts[0]).player.status && *(*hosts[0]).player.status == 0 {
+                *(*hosts[0]).player.status = *(**host).player.status;
+            }
+        }
+    }
+}
+
+type Phase = unsafe extern "C" fn(*mut Player);
+
+unsafe fn phase(host: *mut Host, wide: Phase, narrow: Phase) {
+    // SAFETY: as for `play`.
+    unsafe {
+        let player = &raw mut (*host).player;
+        match (*host).width {
+            Width::F64 => wide(player),
+            Width::F32 => narrow(player),
+        }
+    }
 }
 
 /// The lists of things to do.
@@ -145,10 +335,12 @@ pub(crate) enum Tape {
     Publish,
     /// The blocks.
     Step,
+    /// The statements of nets, which the player runs one by one.
+    Script,
 }
 
 /// How many tapes there are.
-pub(crate) const TAPES: usize = 6;
+pub(crate) const TAPES: usize = 7;
 
 /// A program's storage and what to do with it, in places instead of pointers.
 #[derive(Debug, Default)]
@@ -159,6 +351,8 @@ pub(crate) struct Plan {
     pub(crate) arguments: Vec<Slot>,
     /// The tapes, in the order of [`Tape`].
     pub(crate) tapes: [Vec<Op>; TAPES],
+    /// The nets, each before those in it.
+    pub(crate) nets: Vec<NetPlan>,
 }
 
 /// Why a plan cannot run.
@@ -182,6 +376,7 @@ enum Bare {
     Clear(*mut i32),
     Carry(*const i32, *mut i32),
     Fault(*const i32, u32),
+    Net(usize, usize),
 }
 
 /// A plan with its storage.
@@ -190,6 +385,16 @@ pub(crate) struct Bound {
     /// Read by the thunks.
     _pointers: Vec<*mut c_void>,
     tapes: [Vec<Bare>; TAPES],
+    hosts: Vec<*mut Host>,
+}
+
+impl Drop for Bound {
+    fn drop(&mut self) {
+        for host in self.hosts.drain(..) {
+            // SAFETY: each pointer came from a box in `new` and is dropped once.
+            drop(unsafe { Box::from_raw(host) });
+        }
+    }
 }
 
 impl std::fmt::Debug for Bound {
@@ -212,7 +417,33 @@ impl Bound {
             *bare =
                 ops.iter().map(|op| storage.bind(*op, &plan.arguments, &pointers, width)).collect::<Result<_, _>>()?;
         }
-        Ok(Bound { words, _pointers: pointers, tapes })
+        let mut bound = Bound { words, _pointers: pointers, tapes, hosts: Vec::new() };
+        for net in &plan.nets {
+            let host = storage.host(net, &bound.tapes[Tape::Script as usize], width)?;
+            bound.hosts.push(Box::into_raw(Box::new(host)));
+        }
+        bound.join(plan)?;
+        Ok(bound)
+    }
+
+    /// Gives each net those inside it, and itself to its calls back.
+    fn join(&mut self, plan: &Plan) -> Result<(), NoRoom> {
+        for (i, net) in plan.nets.iter().enumerate() {
+            let mut parts = Vec::with_capacity(net.parts.len());
+            for part in &net.parts {
+                let inner = *self.hosts.get(*part).ok_or(NoRoom::Outside)?;
+                // SAFETY: the host lives as long as `self`.
+                parts.push(unsafe { &raw mut (*inner).player });
+            }
+            let host = self.hosts[i];
+            // SAFETY: no other reference to the host exists here.
+            unsafe {
+                (*host)._parts = parts;
+                (*host).player.parts = (*host)._parts.as_ptr();
+                (*host).player.host = host.cast();
+            }
+        }
+        Ok(())
     }
 
     /// How many things a tape has to do.
@@ -229,31 +460,16 @@ impl Bound {
             // SAFETY: `bind` made every pointer from a checked range of `words` or, for a call, of `_pointers`,
             // which live as long as `self`. No `Cell` of `words` is accessed while C runs.
             unsafe {
-                match *op {
-                    Bare::Call(thunk, arguments) => thunk(arguments),
-                    Bare::ConvertWide(from, to) => *to = f64::from(*from),
-                    Bare::ConvertNarrow(from, to) => *to = *from as f32,
-                    Bare::CopyWide(from, to) => *to = *from,
-                    Bare::Copy(from, to, bytes) => std::ptr::copy(from, to, bytes),
-                    Bare::JudgeWide(places, inputs, at) => {
-                        let bad = |i: usize| !(*(*places.add(i)).cast::<f64>()).is_finite();
-                        *at = i32::from(bad(inputs) && !(0..inputs).any(bad));
-                    }
-                    Bare::JudgeNarrow(places, inputs, at) => {
-                        let bad = |i: usize| !(*(*places.add(i)).cast::<f32>()).is_finite();
-                        *at = i32::from(bad(inputs) && !(0..inputs).any(bad));
-                    }
-                    Bare::Clear(at) => *at = 0,
-                    Bare::Carry(from, to) => {
-                        if *to == 0 {
-                            *to = *from;
-                        }
-                    }
+                match op {
                     Bare::Fault(at, block) => {
-                        if *at != 0 {
-                            health.fault(FaultAt { block, status: *at, scan });
+                        if **at != 0 {
+                            health.fault(FaultAt { block: *block, status: **at, scan });
                         }
                     }
+                    Bare::Net(first, count) => {
+                        play(&self.hosts[*first..first + count], &self.tapes[Tape::Script as usize]);
+                    }
+                    other => perform(other),
                 }
             }
         }
@@ -281,6 +497,35 @@ impl Bound {
     pub(crate) fn write8(&self, at: usize, bytes: [u8; 8]) {
         if let Some(word) = self.words.get(at / 8) {
             word.set(u64::from_ne_bytes(bytes));
+        }
+    }
+}
+
+/// Does one thing that tells nobody of faults.
+unsafe fn perform(op: &Bare) {
+    // SAFETY: as for `Bound::run`, the only caller beside those that it calls.
+    unsafe {
+        match *op {
+            Bare::Call(thunk, arguments) => thunk(arguments),
+            Bare::ConvertWide(from, to) => *to = f64::from(*from),
+            Bare::ConvertNarrow(from, to) => *to = *from as f32,
+            Bare::CopyWide(from, to) => *to = *from,
+            Bare::Copy(from, to, bytes) => std::ptr::copy(from, to, bytes),
+            Bare::JudgeWide(places, inputs, at) => {
+                let bad = |i: usize| !(*(*places.add(i)).cast::<f64>()).is_finite();
+                *at = i32::from(bad(inputs) && !(0..inputs).any(bad));
+            }
+            Bare::JudgeNarrow(places, inputs, at) => {
+                let bad = |i: usize| !(*(*places.add(i)).cast::<f32>()).is_finite();
+                *at = i32::from(bad(inputs) && !(0..inputs).any(bad));
+            }
+            Bare::Clear(at) => *at = 0,
+            Bare::Carry(from, to) => {
+                if *to == 0 {
+                    *to = *from;
+                }
+            }
+            Bare::Fault(..) | Bare::Net(..) => {}
         }
     }
 }
@@ -326,6 +571,66 @@ impl Storage {
         if slots.iter().all(one_real) { Ok((places.as_ptr(), inputs)) } else { Err(NoRoom::Outside) }
     }
 
+    /// A net's player, with its arrays, lists and statements; the nets inside are joined later.
+    fn host(self, net: &NetPlan, tape: &[Bare], width: Width) -> Result<Host, NoRoom> {
+        let mut arrays = Vec::with_capacity(net.arrays.len());
+        for slot in &net.arrays {
+            arrays.push(self.place::<u64>(slot.at, slot.bytes.max(8)).map(<*mut u64>::cast::<c_void>)?);
+        }
+        let list = |places: &[usize]| places.iter().map(|at| self.place::<i32>(*at, 4).map(<*mut i32>::cast)).collect();
+        let lists: [Vec<*mut c_void>; 2] = [list(&net.words), list(&net.hands)]
+            .map(|list: Result<_, _>| list)
+            .into_iter()
+            .collect::<Result<Vec<_>, NoRoom>>()?
+            .try_into()
+            .map_err(|_| NoRoom::Outside)?;
+        let mut scripts = Vec::with_capacity(net.scripts.len());
+        for script in &net.scripts {
+            scripts.push(self.script(script, tape.len(), width)?);
+        }
+        if net.latch.end > tape.len() || arrays.len() != ROW + 5 {
+            return Err(NoRoom::Outside);
+        }
+        let mut row = [std::ptr::null_mut(); ROW];
+        row.copy_from_slice(&arrays[..ROW]);
+        let table = net.table.clone();
+        let player = Player {
+            table: table.as_ptr(),
+            arrays: row,
+            words: lists[0].as_ptr(),
+            hands: lists[1].as_ptr(),
+            wrote: arrays[ROW],
+            active: arrays[ROW + 1],
+            active_since: arrays[ROW + 2],
+            parts: std::ptr::null(),
+            now: 0,
+            status: self.place(net.status, 4)?,
+            lost: arrays[ROW + 3],
+            conflicts: arrays[ROW + 4],
+            act,
+            duration,
+            host: std::ptr::null_mut(),
+        };
+        let (latch, period) = (net.latch.clone(), net.period);
+        let tape = tape.as_ptr();
+        Ok(Host { player, tape, scripts, latch, period, width, _lists: lists, _parts: Vec::new(), _table: table })
+    }
+
+    fn script(self, script: &Script, tape: usize, width: Width) -> Result<BareScript, NoRoom> {
+        if script.ops.end > tape {
+            return Err(NoRoom::Outside);
+        }
+        let answer = match (script.answer, width) {
+            (Answer::None, _) => Returned::None,
+            (Answer::Int(at), _) => Returned::Int(self.place(at, 4)?),
+            (Answer::Real(at), Width::F64) => Returned::Wide(self.place(at, 8)?),
+            (Answer::Real(at), Width::F32) => Returned::Narrow(self.place(at, 4)?),
+        };
+        let reals =
+            script.reals.iter().map(|at| self.place::<u32>(*at, width.bytes()).map(|at| at.cast_const().cast()));
+        Ok(BareScript { ops: script.ops.clone(), answer, reals: reals.collect::<Result<_, _>>()? })
+    }
+
     fn bind(self, op: Op, slots: &[Slot], pointers: &[*mut c_void], width: Width) -> Result<Bare, NoRoom> {
         Ok(match op {
             Op::Call { function: Function(thunk), first, count } => {
@@ -351,6 +656,7 @@ impl Storage {
             Op::Clear { at } => Bare::Clear(self.place(at, 4)?),
             Op::Carry { from, to } => Bare::Carry(self.place(from, 4)?, self.place(to, 4)?),
             Op::Fault { at, block } => Bare::Fault(self.place(at, 4)?, block),
+            Op::Net { first, count } => Bare::Net(first, count),
         })
     }
 }

@@ -4,6 +4,7 @@ use pcl2_lang::model::{self, Index, Point};
 use pcl2_lang::program::{Program, UnitId};
 use pcl2_lang::suggest;
 use pcl2_lang::types::{Shape, Type};
+use rustc_hash::FxHashMap;
 
 /// The named points of one program.
 pub struct Names<'a> {
@@ -12,6 +13,8 @@ pub struct Names<'a> {
     /// Its points, in the order of [`model::points`].
     pub points: Vec<Point>,
     index: Index,
+    /// Elements with a name of their own.
+    own: FxHashMap<String, Element>,
 }
 
 /// One element of a point.
@@ -28,7 +31,13 @@ impl<'a> Names<'a> {
     pub fn new(program: &'a Program) -> Names<'a> {
         let points = model::points(program);
         let index = Index::new(program, &points);
-        Names { program, points, index }
+        let mut own = FxHashMap::default();
+        for (i, point) in points.iter().enumerate() {
+            for element in 0..point.elements.len() as u32 {
+                own.extend(point.element_name(element).map(|name| (name, Element { point: i as u32, element })));
+            }
+        }
+        Names { program, points, index, own }
     }
 
     /// The point of an element.
@@ -38,6 +47,9 @@ impl<'a> Names<'a> {
 
     /// All elements that a name stands for: a scalar or an element one, a whole vector or matrix each of its own.
     pub fn elements(&self, name: &str) -> Result<Vec<Element>, String> {
+        if let Some(element) = self.own.get(name) {
+            return Ok(vec![*element]);
+        }
         if let Some(point) = self.whole(name)? {
             let count = self.points[point as usize].ty.elements() as u32;
             return Ok((0..count).map(|element| Element { point, element }).collect());
@@ -47,6 +59,9 @@ impl<'a> Names<'a> {
 
     /// The one element that a name stands for.
     pub fn element(&self, name: &str) -> Result<Element, String> {
+        if let Some(element) = self.own.get(name) {
+            return Ok(*element);
+        }
         let Some(point) = self.whole(name)? else {
             return self.indexed(name);
         };
@@ -60,6 +75,9 @@ impl<'a> Names<'a> {
     /// The name of an element, as trace headers have it.
     pub fn label(&self, element: Element) -> String {
         let point = self.point(element);
+        if let Some(name) = point.element_name(element.element) {
+            return name;
+        }
         format!("{}{}", point.name, suffix(point.ty, element.element))
     }
 

@@ -45,6 +45,7 @@ fn compile_with(own: &[(&str, &str)], text: &str, period: Option<i64>, width: Wi
         catalogue: &catalogue,
         files: &files,
         options: &options,
+        alone: None,
     };
     let program = pcl2_cfg::compile(&input, &mut diagnostics);
     let shown: String = diagnostics.iter().map(|diagnostic| render::render(diagnostic, &sources, false)).collect();

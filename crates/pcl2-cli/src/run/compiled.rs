@@ -29,6 +29,10 @@ pub(crate) fn run(
     toolchain: &Toolchain,
     recorder: &mut Recorder,
 ) -> Result<Finished, Failure> {
+    if let Some(net) = pcl2_emit::net_of(verified.program()) {
+        let why = format!("`{net}` is a net: nets run in the embedded engine, there is no C of them");
+        return Err(Failure::failed(why));
+    }
     let folder = tempfile::Builder::new().prefix("pcl2-").tempdir().map_err(|error| cannot("make a folder", &error))?;
     let program = build(verified, project, toolchain, &folder)?;
     let script = folder.path().join("script");

@@ -228,6 +228,8 @@ impl Reader<'_> {
                 }
                 return;
             }
+            // Own parameters stand on wires inside nets only, which are drawn as nets.
+            Source::Own(..) => return,
             Source::Cell(cell) => {
                 let initial = text::value(&unit.cells[cell.0 as usize].initial, label.names);
                 self.pin(block, Side::Left, label.name.clone(), Note::Cell(initial));

@@ -91,7 +91,7 @@ fn port(program: &Program, block: &Block, name: &str) -> Option<Source> {
     let drawn = match source {
         Source::Signal(signal) => program.main().signal(*signal).ty.is_scalar(),
         Source::Cell(cell) => program.main().cells[cell.0 as usize].ty.is_scalar(),
-        Source::Copied(_) | Source::Element(..) | Source::Constant(_) => false,
+        Source::Copied(_) | Source::Element(..) | Source::Constant(_) | Source::Own(..) => false,
     };
     drawn.then(|| source.clone())
 }

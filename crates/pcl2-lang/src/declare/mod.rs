@@ -1,5 +1,6 @@
 //! `.fc` files -> declarations.
 
+pub mod net;
 pub mod raw;
 
 use crate::ast::{Line, Name, Number, Operand, Statement};
@@ -14,7 +15,7 @@ use crate::kernel;
 use crate::lexer::{Key, Token};
 use crate::source::{FileId, Sources, Span};
 use crate::symbol::Symbols;
-use crate::syntax::{Context, Lines, parse_body_line, parse_declaration_line};
+use crate::syntax::{Context, Lines, Words, parse_body_line, parse_declaration_line};
 use crate::types::{Real, Scalar, Value, Width};
 use raw::Raw;
 
@@ -155,7 +156,15 @@ fn head(context: &mut Context<'_>, outputs: &[raw::Output], call: &raw::Call) ->
         let tail = declare_tail(context, &decl, &output.tail);
         let group = declare_group(context, &decl, output.group.as_ref());
         let name = context.symbol_text(output.name.symbol).to_owned();
-        decl.outputs.push(OutputDecl { name, ty, inout: output.inout, group, tail });
+        decl.outputs.push(OutputDecl {
+            by_name: name == RETURN_OUTPUT,
+            name,
+            ty,
+            inout: output.inout,
+            group,
+            tail,
+            elements: Vec::new(),
+        });
     }
     decl
 }
@@ -547,7 +556,7 @@ fn text_until_end(context: &mut Context<'_>, lines: &mut Lines<'_>, span: Span) 
 
 fn body(context: &mut Context<'_>, lines: &mut Lines<'_>) -> Vec<Statement> {
     let mut statements = Vec::new();
-    lines.set_words(true);
+    lines.set_words(Words::Program);
     let mut ended = false;
     while let Some(broken) = lines.next_line(context.diagnostics()) {
         if broken {
@@ -569,7 +578,7 @@ fn body(context: &mut Context<'_>, lines: &mut Lines<'_>) -> Vec<Statement> {
         let span = context.span(u32::MAX, u32::MAX);
         complain(context, span, "expected END after BODY, found the end of the file");
     }
-    lines.set_words(false);
+    lines.set_words(Words::Declarations);
     statements
 }
 

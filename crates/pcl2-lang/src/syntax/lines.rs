@@ -3,8 +3,31 @@
 
 use crate::codes;
 use crate::diagnostic::{self, Diagnostic};
-use crate::lexer::{DECLARATION_WORDS, Key, Lexeme, Lexer, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of};
+use crate::lexer::{
+    DECLARATION_WORDS, Key, Lexeme, Lexer, NET_WORDS, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of,
+};
 use crate::source::{FileId, NOT_TEXT, SourceFile, Span};
+
+/// Which words are reserved in the lines that come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Words {
+    /// Statements of a program.
+    Program,
+    /// Declarations.
+    Declarations,
+    /// A net below its head.
+    Net,
+}
+
+impl Words {
+    fn table(self) -> &'static [(&'static str, Key)] {
+        match self {
+            Words::Program => &SECTION_WORDS,
+            Words::Declarations => &DECLARATION_WORDS,
+            Words::Net => &NET_WORDS,
+        }
+    }
+}
 
 /// Cuts a file into logical lines: a newline inside parentheses is white space.
 pub(crate) struct Lines<'a> {
@@ -12,26 +35,25 @@ pub(crate) struct Lines<'a> {
     file: FileId,
     lexer: Lexer<'a>,
     pending: Option<Lexeme>,
-    /// The lines are statements, not declarations.
-    in_program: bool,
+    words: Words,
     /// The tokens of the current line.
     pub(crate) tokens: Vec<Lexeme>,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(source: &'a SourceFile, file: FileId, in_program: bool) -> Lines<'a> {
-        let lexer = Lexer::new(&source.text, if in_program { &SECTION_WORDS } else { &DECLARATION_WORDS });
-        Lines { source, file, lexer, pending: None, in_program, tokens: Vec::new() }
+    pub(super) fn new(source: &'a SourceFile, file: FileId, words: Words) -> Lines<'a> {
+        let lexer = Lexer::new(&source.text, words.table());
+        Lines { source, file, lexer, pending: None, words, tokens: Vec::new() }
     }
 
     pub(crate) fn declarations(source: &'a SourceFile, file: FileId) -> Lines<'a> {
-        Lines::new(source, file, false)
+        Lines::new(source, file, Words::Declarations)
     }
 
-    /// Switches between the words of declarations and those of programs, for a composite's body.
-    pub(crate) fn set_words(&mut self, in_body: bool) {
-        self.in_program = in_body;
-        self.lexer.set_words(if in_body { &SECTION_WORDS } else { &DECLARATION_WORDS });
+    /// Switches to other words, for a composite's body or a net below its head.
+    pub(crate) fn set_words(&mut self, words: Words) {
+        self.words = words;
+        self.lexer.set_words(words.table());
     }
 
     /// The rest of the text after the current line.
@@ -89,7 +111,8 @@ impl<'a> Lines<'a> {
         if self.tokens.is_empty() {
             return None;
         }
-        if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, self.in_program) {
+        let statements = self.words != Words::Declarations;
+        if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, statements) {
             equals.token = Token::Becomes;
             self.report_not_equal(diagnostics);
         }

@@ -37,10 +37,12 @@ lalrpop_util::lalrpop_mod!(
 );
 
 mod lines;
+mod nets;
 mod wording;
 
-pub(crate) use lines::Lines;
 use lines::is_comparison;
+pub(crate) use lines::{Lines, Words};
+pub(crate) use nets::parse_net_lines;
 use wording::{form_help, list};
 
 /// The deepest nesting of an expression.
@@ -75,6 +77,8 @@ pub struct Context<'a> {
     /// How deep the results nest that are not used up yet.
     depths: Vec<u32>,
     too_deep: bool,
+    /// The counters of the FOR lines around the line, and their values.
+    counters: Vec<(Symbol, i32)>,
 }
 
 /// Parses a `.cfg` file.
@@ -135,7 +139,7 @@ enum Stop {
 
 impl<'a> Rows<'a> {
     fn new(source: &'a SourceFile, file: FileId) -> Rows<'a> {
-        let lines = Lines::new(source, file, true);
+        let lines = Lines::new(source, file, Words::Program);
         Rows { lines, next: usize::MAX, stop: Stop::File, diagnostics: Vec::new() }
     }
 
@@ -246,6 +250,7 @@ impl<'a> Context<'a> {
             terms: Vec::new(),
             depths: Vec::new(),
             too_deep: false,
+            counters: Vec::new(),
         }
     }
 
@@ -314,13 +319,24 @@ impl<'a> Context<'a> {
 
     /// The sign or name at a place is applied to the latest results.
     fn apply(&mut self, start: u32, end: u32, count: u32) {
+        let span = self.span(start, end);
+        let symbol = self.symbols.intern(self.text(span));
+        self.apply_symbol(Name { symbol, span }, count);
+    }
+
+    /// An operator that is a word in capitals stands for the function of that name.
+    fn apply_word(&mut self, start: u32, end: u32, count: u32) {
+        let span = self.span(start, end);
+        let symbol = self.symbols.intern(&self.text(span).to_ascii_lowercase());
+        self.apply_symbol(Name { symbol, span }, count);
+    }
+
+    fn apply_symbol(&mut self, name: Name, count: u32) {
         let rest = self.depths.len().saturating_sub(count as usize);
         let depth = self.depths.drain(rest..).max().unwrap_or(0) + 1;
         self.depths.push(depth);
         self.too_deep |= depth > MAX_DEPTH;
-        let span = self.span(start, end);
-        let symbol = self.symbols.intern(self.text(span));
-        self.terms.push(Term::Apply(Name { symbol, span }, count));
+        self.terms.push(Term::Apply(name, count));
     }
 
     fn missing_end(&mut self) {

@@ -1,5 +1,6 @@
 //! The embedded engine: a program over one block of storage, its kernels called through tables of pointers.
 
+mod net;
 mod place;
 mod set;
 mod wire;

@@ -1,6 +1,7 @@
 //! First pass: every block instance, output, parameter and memory gets its place in the storage.
 
 use super::Unsupported;
+use super::net::NetStore;
 use crate::ffi::{Kernel, Op};
 use pcl2_lang::decl::{Decl, Field, TypeExpr};
 use pcl2_lang::kernel::{self, Member};
@@ -39,6 +40,8 @@ pub(crate) struct Node {
     pub(crate) tuned: Vec<usize>,
     /// The body of a composite.
     pub(crate) inner: Option<Body>,
+    /// What a net keeps beside its signals.
+    pub(crate) net: Option<Box<NetStore>>,
 }
 
 /// One instance of a unit.
@@ -50,6 +53,8 @@ pub(crate) struct Body {
     pub(crate) signals: Vec<usize>,
     /// The instances of its blocks.
     pub(crate) nodes: Vec<Node>,
+    /// A composite's own parameters.
+    pub(crate) own: Vec<usize>,
 }
 
 /// What stands in the storage before the first scan.
@@ -193,7 +198,7 @@ impl<'a> Store<'a> {
                 signals[i] = nodes[writer.block.0 as usize].outputs[writer.output as usize];
             }
         }
-        Ok(Body { unit, signals, nodes })
+        Ok(Body { unit, signals, nodes, own: own.to_vec() })
     }
 
     /// Places one block of a unit.
@@ -284,7 +289,8 @@ impl<'a> Store<'a> {
         }
         let body = self.body(unit, &params, &ready, depth + 1)?;
         let outputs = inner.outputs.iter().map(|signal| body.signals[signal.0 as usize]).collect();
-        let can_fault = body.nodes.iter().any(|node| node.status.is_some());
+        let net = decl.net.as_deref().map(|net| self.net(net, &body)).transpose()?.map(Box::new);
+        let can_fault = net.is_some() || body.nodes.iter().any(|node| node.status.is_some());
         let status = if can_fault { Some(self.take(4)?) } else { None };
         let (decl, kernel, instance) = (block.decl, None, NOWHERE);
         Ok(Node {
@@ -297,6 +303,7 @@ impl<'a> Store<'a> {
             memory: Vec::new(),
             tuned: Vec::new(),
             inner: Some(body),
+            net,
         })
     }
 
@@ -312,7 +319,7 @@ impl<'a> Store<'a> {
         if self.params_only {
             let (outputs, memory, tuned) = (vec![NOWHERE; block.outputs.len()], Vec::new(), Vec::new());
             let (decl, instance, status) = (block.decl, NOWHERE, None);
-            return Ok(Node { decl, kernel, instance, status, outputs, params, memory, tuned, inner: None });
+            return Ok(Node { decl, kernel, instance, status, outputs, params, memory, tuned, inner: None, net: None });
         }
         let instance = self.take(kernel.map_or(0, Kernel::size))?;
         let members = kernel::members(decl);
@@ -346,7 +353,7 @@ impl<'a> Store<'a> {
             None if kernel::faults_by_result(decl) => Some(self.take(4)?),
             status => status,
         };
-        Ok(Node { decl: block.decl, kernel, instance, status, outputs, params, memory, tuned, inner: None })
+        Ok(Node { decl: block.decl, kernel, instance, status, outputs, params, memory, tuned, inner: None, net: None })
     }
 
     fn field(&mut self, field: &Field, sizes: &[i32], member: Option<usize>) -> Result<usize, Unsupported> {
@@ -361,7 +368,7 @@ impl<'a> Store<'a> {
 pub(crate) fn has_slot(signal: &Signal) -> bool {
     match signal.writers.as_slice() {
         [] => !matches!(signal.role, Role::Port(_)),
-        [writer] => writer.inout,
+        [writer] => writer.inout || signal.role == Role::Held,
         [..] => true,
     }
 }

@@ -1,6 +1,7 @@
 //! Second pass: wires, calls and what follows them, as tapes over the places of the first pass.
 
 use super::Unsupported;
+use super::net::{self, NetStore};
 use super::place::{Body, Fill, NOWHERE, Node, Store, has_slot, width_of};
 use crate::ffi::{Function, Op, Plan, Slot, Tape};
 use pcl2_lang::decl::{Decl, PortDecl, Step, TypeExpr};
@@ -66,6 +67,8 @@ pub(crate) struct Wired {
 /// One instance of a unit while it is wired.
 struct Context<'c> {
     signals: &'c [usize],
+    /// The own parameters of the composite around it.
+    own: &'c [usize],
     period: Option<i64>,
     /// Whether this is the body of a composite.
     nested: bool,
@@ -92,7 +95,7 @@ pub(crate) fn wire_checks(store: &mut Store, nodes: &mut [(BlockId, Node)]) -> R
     for (id, node) in nodes {
         let section = program.sections.iter().find(|section| (section.first..section.end).contains(&id.0));
         let period = program.period.zip(section).map(|(scan, section)| section.period(scan, program.substeps));
-        let context = Context { signals: &signals, period, nested: false, outer_status: None, top: id.0 };
+        let context = Context { signals: &signals, own: &[], period, nested: false, outer_status: None, top: id.0 };
         let start = checks.len();
         match wiring.node(program.main(), *id, node, &context, &mut checks) {
             Ok(()) => ranges.push(Ranges { check: start..checks.len(), ..Ranges::default() }),
@@ -147,7 +150,8 @@ impl<'a, 'b> Wiring<'a, 'b> {
             let period = self.program.period.map(|scan| section.period(scan, self.program.substeps));
             for top in section.first..section.end {
                 let start = self.lengths();
-                let context = Context { signals: &body.signals, period, nested: false, outer_status: None, top };
+                let context =
+                    Context { signals: &body.signals, own: &[], period, nested: false, outer_status: None, top };
                 let node = &mut body.nodes[top as usize];
                 self.node(unit, BlockId(top), node, &context, &mut checks)?;
                 let end = self.lengths();
@@ -178,12 +182,97 @@ impl<'a, 'b> Wiring<'a, 'b> {
         checks: &mut Checks,
     ) -> Result<(), Unsupported> {
         let block = unit.block(id);
-        match &mut node.inner {
-            Some(body) => self.composite(unit, id, node.status, body, context, checks)?,
-            None => self.leaf(unit, block, node, context, checks)?,
+        match (&mut node.inner, &node.net) {
+            (Some(body), Some(net)) => {
+                let first = self.plan.nets.len();
+                self.net(unit, id, (node.status, net), body, context, checks)?;
+                let count = self.plan.nets.len() - first;
+                self.plan.tape(Tape::Step).push(Op::Net { first, count });
+            }
+            (Some(body), None) => self.composite(unit, id, node.status, body, context, checks)?,
+            (None, _) => self.leaf(unit, block, node, context, checks)?,
         }
         self.after(unit, id, node, context);
         Ok(())
+    }
+
+    /// A net: its statements stand on a tape of their own, and the player says when each of them runs.
+    fn net(
+        &mut self,
+        unit: &'a Unit,
+        id: BlockId,
+        (status, store): (Option<usize>, &NetStore),
+        body: &mut Body,
+        context: &Context,
+        checks: &mut Checks,
+    ) -> Result<usize, Unsupported> {
+        let index = self.plan.nets.len();
+        let period = context.period.unwrap_or(0);
+        self.plan.nets.push(net::plan(store, status.unwrap_or(NOWHERE), period));
+        let start = self.plan.tape(Tape::Step).len();
+        self.latch(unit, id, body, context)?;
+        self.plan.nets[index].latch = self.move_to_scripts(start);
+        let inner = self.program.unit(body.unit);
+        let Body { signals, nodes, own, .. } = body;
+        let context =
+            Context { signals, own, period: context.period, nested: true, outer_status: status, top: context.top };
+        for (i, node) in nodes.iter_mut().enumerate() {
+            let id = BlockId(i as u32);
+            let script = match (&mut node.inner, &node.net) {
+                (Some(body), Some(net)) => {
+                    let part = self.net(inner, id, (node.status, net), body, &context, checks)?;
+                    self.plan.nets[index].parts.push(part);
+                    net::script(0..0, inner, node, i, Vec::new())
+                }
+                (Some(_), None) | (None, _) => {
+                    let start = self.plan.tape(Tape::Step).len();
+                    self.node(inner, id, node, &context, checks)?;
+                    let ops = self.move_to_scripts(start);
+                    net::script(ops, inner, node, i, self.reals(inner, id, &context))
+                }
+            };
+            self.plan.nets[index].scripts.push(script);
+        }
+        Ok(index)
+    }
+
+    /// A net's inputs are taken in once a scan, and its commands go to the words that gates clear.
+    fn latch(&mut self, unit: &'a Unit, id: BlockId, body: &mut Body, context: &Context) -> Result<(), Unsupported> {
+        let block = unit.block(id);
+        let inner = self.program.unit(body.unit);
+        for (i, signal) in inner.signals.iter().enumerate() {
+            let Role::Port(port) = signal.role else {
+                continue;
+            };
+            if let Some(source) = block.ports.get(port as usize) {
+                body.signals[i] = self.source(unit, source, signal.ty, true, context)?;
+            }
+        }
+        let Some(net) = self.program.decl(block.decl).net.as_deref() else {
+            return Ok(());
+        };
+        let held = inner.signals.iter().position(|signal| signal.role == Role::Held).unwrap_or(0);
+        for (port, word) in &net.momentary {
+            let (from, to) = (body.signals[*port as usize], body.signals[held + word.0 as usize]);
+            self.plan.tape(Tape::Step).push(Op::Copy { from, to, bytes: 4 });
+        }
+        Ok(())
+    }
+
+    /// Moves what was put on the tape of steps since a place to that of a net's statements.
+    fn move_to_scripts(&mut self, start: usize) -> Range<usize> {
+        let ops = self.plan.tape(Tape::Step).split_off(start);
+        let scripts = self.plan.tape(Tape::Script);
+        let first = scripts.len();
+        scripts.extend(ops);
+        first..scripts.len()
+    }
+
+    /// Where the reals are that a statement reads.
+    fn reals(&self, unit: &Unit, id: BlockId, context: &Context) -> Vec<usize> {
+        let places = unit.block(id).ports.iter().map(|source| self.wired(unit, source, context));
+        let real = |(at, ty): &(usize, Type)| ty.scalar == Scalar::Real && ty.is_scalar() && *at != NOWHERE;
+        places.filter(real).map(|(at, _)| at).collect()
     }
 
     fn composite(
@@ -214,8 +303,9 @@ impl<'a, 'b> Wiring<'a, 'b> {
                 self.into(unit, source, signal.ty, body.signals[i], context);
             }
         }
-        let Body { signals, nodes, .. } = body;
-        let context = Context { signals, period: context.period, nested: true, outer_status: status, top: context.top };
+        let Body { signals, nodes, own, .. } = body;
+        let context =
+            Context { signals, own, period: context.period, nested: true, outer_status: status, top: context.top };
         for (i, node) in nodes.iter_mut().enumerate() {
             self.node(inner, BlockId(i as u32), node, &context, checks)?;
         }
@@ -588,6 +678,10 @@ impl<'a, 'b> Wiring<'a, 'b> {
                 (context.signals[id.0 as usize].saturating_add(offset), ty)
             }
             Source::Cell(id) => (self.cells[id.0 as usize], unit.cells[id.0 as usize].ty),
+            Source::Own(index, scalar) => {
+                let at = context.own.get(*index as usize).copied().unwrap_or(NOWHERE);
+                (at, Type { scalar: *scalar, shape: Shape::Scalar })
+            }
             Source::Constant(_) => (NOWHERE, Type { scalar: Scalar::Real, shape: Shape::Vector(0) }),
         }
     }
@@ -668,6 +762,6 @@ fn writes(unit: &Unit, source: &Source, block: BlockId) -> bool {
             unit.signal(*id).writers.iter().any(|writer| writer.block == block)
         }
         Source::Copied(_) => true,
-        Source::Constant(_) | Source::Cell(_) => false,
+        Source::Constant(_) | Source::Cell(_) | Source::Own(..) => false,
     }
 }

@@ -1,0 +1,72 @@
+//! `.net` files as written: a head in the notation of declarations, and the lines of the net.
+
+use super::raw::Raw;
+use super::{comment_above, complain, head, mistakes};
+use crate::ast::net::NetLine;
+use crate::codes;
+use crate::decl::Decl;
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Sources, Span};
+use crate::symbol::Symbols;
+use crate::syntax::{Context, Lines, Words, parse_declaration_line, parse_net_lines};
+
+/// What one `.net` file says.
+#[derive(Clone, Debug)]
+pub struct NetFile {
+    /// The declaration of its inputs, outputs and parameters.
+    pub decl: Decl,
+    /// Its lines.
+    pub lines: Vec<NetLine>,
+    /// Nothing was said about it so far.
+    pub sound: bool,
+}
+
+/// Reads a `.net` file. `None`: its head is not understood, which was reported.
+pub fn read(
+    sources: &Sources,
+    file: FileId,
+    stem: &str,
+    symbols: &mut Symbols,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<NetFile> {
+    let source = sources.file(file);
+    let mut context = Context::new(source, file, symbols, diagnostics);
+    let mut lines = Lines::declarations(source, file);
+    let before = mistakes(&mut context);
+    let Some(broken) = lines.next_line(context.diagnostics()) else {
+        let start = context.span(0, 0);
+        no_head(&mut context, start, "an empty file");
+        return None;
+    };
+    let start = lines.tokens.first().map_or(0, |lexeme| lexeme.start);
+    let first = context.span(start, lines.position());
+    let decl = match (broken, parse_declaration_line(&mut context, &lines)) {
+        (false, Some(Raw::Head(outputs, call))) => {
+            let mut decl = head(&mut context, &outputs, &call);
+            decl.doc = comment_above(&source.text, start as usize);
+            (decl.stem, decl.user) = (stem.to_owned(), true);
+            Some(decl)
+        }
+        (false, Some(Raw::Clause(_))) => {
+            no_head(&mut context, first, "another line");
+            None
+        }
+        (_, _) => None,
+    };
+    lines.set_words(Words::Net);
+    let parsed = parse_net_lines(&mut context, &mut lines);
+    let mut decl = decl?;
+    if decl.name != stem {
+        let message = format!("expected the net `{stem}`, as its file is called, found `{}`", decl.name);
+        complain(&mut context, decl.span, message);
+        decl.name = stem.to_owned();
+    }
+    let sound = mistakes(&mut context) == before;
+    Some(NetFile { decl, lines: parsed, sound })
+}
+
+fn no_head(context: &mut Context<'_>, span: Span, found: &str) {
+    let message = format!("expected the head of a net, found {found}");
+    let help = "a net begins as a declaration does: `int v1, int v2 = tank ( int button, int level : )`";
+    context.diagnostics().push(Diagnostic::new(codes::BAD_DECLARATION, span, message).help(help));
+}

@@ -1,0 +1,191 @@
+//! The lines of a net below its head. The lines between FOR and NEXT are parsed once for each value of the counter.
+
+use super::{Context, Lines, cfg};
+use crate::ast::Name;
+use crate::ast::net::{BoxName, NetLine, Preset};
+use crate::codes;
+use crate::diagnostic::{self, Diagnostic};
+use crate::lexer::{Key, Lexeme, Token};
+use crate::source::Span;
+
+/// The most lines of one net, those of FOR counted as often as they run.
+const MAX_LINES: usize = 1 << 17;
+
+/// FOR lines nest at most this deep.
+const MAX_LOOPS: usize = 8;
+
+/// Parses what follows a net's head, up to END.
+pub(crate) fn parse_net_lines(context: &mut Context<'_>, lines: &mut Lines<'_>) -> Vec<NetLine> {
+    let mut rows: Vec<Vec<Lexeme>> = Vec::new();
+    let mut ended = false;
+    while !diagnostic::enough(context.diagnostics) {
+        let Some(broken) = lines.next_line(context.diagnostics) else {
+            break;
+        };
+        if broken {
+            continue;
+        }
+        rows.push(lines.tokens.clone());
+        if is_first(&lines.tokens, Key::End) {
+            ended = true;
+            break;
+        }
+    }
+    if !ended {
+        context.missing_end();
+    }
+    let mut parsed = Vec::new();
+    block(context, &rows, &mut parsed);
+    parsed
+}
+
+fn is_first(row: &[Lexeme], key: Key) -> bool {
+    row.first().is_some_and(|lexeme| lexeme.token == Token::Key(key))
+}
+
+/// Parses a run of lines.
+fn block(context: &mut Context<'_>, rows: &[Vec<Lexeme>], parsed: &mut Vec<NetLine>) {
+    let mut next = 0;
+    while let Some(row) = rows.get(next) {
+        next += 1;
+        let line = parse(context, row);
+        match line {
+            Some(NetLine::For(name, from, to)) => {
+                let length = body_length(&rows[next..]);
+                repeat(context, &rows[next..next + length.unwrap_or(0)], (name, from, to), parsed);
+                match length {
+                    Some(length) => next += length + 1,
+                    None => context.complain(
+                        codes::UNCLOSED,
+                        name.span,
+                        "expected NEXT after FOR, found the end of the net",
+                        "close the repeated lines with NEXT",
+                    ),
+                }
+            }
+            Some(NetLine::Next(span)) => {
+                context.complain(codes::SECTION, span, "expected a FOR before NEXT, found none", "delete this NEXT");
+            }
+            Some(line) => parsed.push(line),
+            None => {}
+        }
+        if parsed.len() > MAX_LINES {
+            return;
+        }
+    }
+}
+
+/// How many lines stand before the NEXT that closes a FOR.
+fn body_length(rows: &[Vec<Lexeme>]) -> Option<usize> {
+    let mut open = 0;
+    for (i, row) in rows.iter().enumerate() {
+        if is_first(row, Key::For) {
+            open += 1;
+        } else if is_first(row, Key::Next) {
+            if open == 0 {
+                return Some(i);
+            }
+            open -= 1;
+        }
+    }
+    None
+}
+
+fn repeat(
+    context: &mut Context<'_>,
+    rows: &[Vec<Lexeme>],
+    (name, from, to): (Name, (u32, Span), (u32, Span)),
+    parsed: &mut Vec<NetLine>,
+) {
+    if context.counters.len() == MAX_LOOPS {
+        let message = format!("expected FOR at most {MAX_LOOPS} deep, found a deeper one");
+        context.complain(codes::TOO_DEEP, name.span, message, "write a part of the lines out");
+        return;
+    }
+    if from.0 > to.0 {
+        let message = format!("expected at least {} behind TO, found {}", from.0, to.0);
+        context.complain(codes::OUT_OF_RANGE, to.1, message, "count upwards");
+        return;
+    }
+    for value in from.0..=to.0 {
+        let before = context.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count();
+        context.counters.push((name.symbol, value as i32));
+        block(context, rows, parsed);
+        context.counters.pop();
+        let after = context.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count();
+        if parsed.len() > MAX_LINES {
+            let message = format!("expected at most {MAX_LINES} lines, found more by FOR");
+            context.complain(codes::TOO_LARGE, name.span, message, "repeat less often");
+            return;
+        }
+        // The next turn would say the same again.
+        if after > before {
+            return;
+        }
+    }
+}
+
+fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> Option<NetLine> {
+    let tokens = row.iter().map(|lexeme| Ok((lexeme.start, lexeme.token, lexeme.end)));
+    match cfg::NetLineParser::new().parse(context, tokens) {
+        Ok(line) => Some(line),
+        Err(error) => {
+            context.report(error, row);
+            None
+        }
+    }
+}
+
+impl Context<'_> {
+    fn complain(&mut self, code: codes::Code, span: Span, message: impl Into<String>, help: &str) {
+        self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+    }
+
+    /// The value of a FOR counter, and something more.
+    pub(super) fn counter(&mut self, name: Name, more: i64) -> (i32, Span) {
+        let known = self.counters.iter().rev().find(|(symbol, _)| *symbol == name.symbol);
+        let Some((_, value)) = known else {
+            let text = self.symbols.text(name.symbol);
+            let message = format!("expected a number, found `{text}`");
+            let help =
+                if self.counters.is_empty() { "indexes are numbers" } else { "take a number or the counter of a FOR" };
+            self.complain(codes::UNEXPECTED, name.span, message, help);
+            return (1, name.span);
+        };
+        (i32::try_from(i64::from(*value) + more).unwrap_or(0), name.span)
+    }
+
+    /// `idle[3]` as one name.
+    pub(super) fn indexed(&mut self, name: Name, (index, _): (i32, Span), start: u32, end: u32) -> Name {
+        let text = format!("{}[{index}]", self.symbols.text(name.symbol));
+        Name { symbol: self.symbols.intern(&text), span: self.span(start, end) }
+    }
+
+    /// The same where several indexes could stand.
+    pub(super) fn owner(&mut self, name: Name, indexes: Vec<(i32, Span)>, start: u32, end: u32) -> Name {
+        match indexes.as_slice() {
+            [index] => self.indexed(name, *index, start, end),
+            _ => name,
+        }
+    }
+
+    /// `out = hold`
+    pub(super) fn held(&mut self, name: Name, word: Name) -> Preset {
+        let text = self.symbols.text(word.symbol);
+        if text != HOLD {
+            let message = format!("expected a number or `{HOLD}`, found `{text}`");
+            self.complain(codes::UNEXPECTED, word.span, message, "`hold` keeps what stands there");
+        }
+        Preset { name, value: None, span: word.span }
+    }
+}
+
+/// The word for "what stands there stays".
+const HOLD: &str = "hold";
+
+impl BoxName {
+    /// The name of a box of the net itself.
+    pub fn own(name: Name) -> BoxName {
+        BoxName { part: None, name }
+    }
+}

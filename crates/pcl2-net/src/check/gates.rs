@@ -1,0 +1,371 @@
+//! Pass 5: gates in the order in which a scan tries them, with every token's way.
+
+use super::outline::{GateLines, Outline, RuleLines};
+use super::{Builder, Thing};
+use pcl2_lang::ast::net::{ArcTerm, BoxName, GateClause, Route};
+use pcl2_lang::ast::{Operand, Statement};
+use pcl2_lang::codes;
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::net::{Arc, BoxId, Gate, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
+use pcl2_lang::source::Span;
+use pcl2_lang::suggest;
+use pcl2_lang::symbol::Symbol;
+use rustc_hash::FxHashMap;
+
+/// Reads the gates.
+pub(super) fn gates(builder: &mut Builder<'_>, outline: &mut Outline) {
+    let mut seen: FxHashMap<Symbol, Span> = FxHashMap::default();
+    let mut gates: Vec<Gate> = Vec::new();
+    for lines in std::mem::take(&mut outline.gates) {
+        let name = lines.line.name.name;
+        if let Some(first) = seen.insert(name.symbol, name.span) {
+            let message = format!("expected a gate of its own name, found `{}` a second time", builder.text(name));
+            let report = Diagnostic::new(codes::NET_NAME_TAKEN, name.span, message);
+            builder.diagnostics.push(report.label(first, "the first").help("take another name"));
+        }
+        gates.extend(Reader { builder: &mut *builder }.gate(lines));
+        if gates.len() > MAX_COUNT {
+            let message = format!("expected at most {MAX_COUNT} gates in a net, found more");
+            builder.complain(codes::TOO_LARGE, name.span, message, "divide the net");
+            return;
+        }
+    }
+    gates.sort_by_key(|gate| -i64::from(gate.priority));
+    builder.net.gates = gates;
+}
+
+struct Reader<'b, 'a> {
+    builder: &'b mut Builder<'a>,
+}
+
+impl Reader<'_, '_> {
+    fn gate(&mut self, lines: GateLines) -> Option<Gate> {
+        let GateLines { line, rules } = lines;
+        let (before, after) = (self.arcs(&line.before), self.arcs(&line.after));
+        let name = self.builder.text(line.name.name);
+        let mut gate = Gate {
+            name,
+            before: before.unwrap_or_default(),
+            after: after.unwrap_or_default(),
+            reads: Vec::new(),
+            inhibits: Vec::new(),
+            priority: 0,
+            permits: Vec::new(),
+            rules: Vec::new(),
+            span: line.span,
+        };
+        let mut clauses = Vec::new();
+        for clause in line.clauses {
+            self.clause(&mut gate, clause, &mut clauses);
+        }
+        if gate.before.len() != line.before.len() || gate.after.len() != line.after.len() {
+            return None;
+        }
+        self.weights(&gate, &line.before, true);
+        self.weights(&gate, &line.after, false);
+        let rules = if rules.is_empty() {
+            vec![RuleLines { condition: None, routes: Vec::new(), actions: Vec::new(), span: line.span }]
+        } else {
+            rules
+        };
+        for rule in rules {
+            let rule = self.rule(&gate, rule);
+            gate.rules.push(rule);
+        }
+        Some(gate)
+    }
+
+    fn clause(&mut self, gate: &mut Gate, clause: GateClause, seen: &mut Vec<&'static str>) {
+        let (word, span) = match &clause {
+            GateClause::Read(arcs) => ("READ", arcs.first().map(|arc| arc.place.span())),
+            GateClause::Inhibit(arcs) => ("INHIBIT", arcs.first().map(|arc| arc.place.span())),
+            GateClause::Priority(_, span) => ("PRIORITY", Some(*span)),
+            GateClause::Permit(terms) => ("PERMIT", terms.first().map(|term| term.span)),
+            GateClause::If(condition) => ("IF", Some(condition.span)),
+        };
+        if seen.contains(&word) {
+            let message = format!("expected {word} once, found it again");
+            self.builder.complain(codes::NET_LINE, span.unwrap_or(gate.span), message, "put all into one list");
+        }
+        seen.push(word);
+        match clause {
+            GateClause::Read(arcs) => gate.reads = self.tested(&arcs),
+            GateClause::Inhibit(arcs) => gate.inhibits = self.tested(&arcs),
+            GateClause::Priority(priority, _) => gate.priority = priority,
+            GateClause::Permit(terms) => {
+                for term in terms {
+                    let text = self.builder.written_text(term.span).to_owned();
+                    let condition = self.builder.statement(term);
+                    gate.permits.push(Permit { text, condition });
+                }
+            }
+            GateClause::If(_) => {}
+        }
+    }
+
+    fn arcs(&mut self, terms: &[ArcTerm]) -> Option<Vec<Arc>> {
+        let mut arcs: Vec<Arc> = Vec::new();
+        for term in terms {
+            let place = self.builder.own_box(term.place)?;
+            if arcs.iter().any(|arc| arc.place == place) {
+                let message =
+                    format!("expected each box once, found `{}` again", self.builder.written_text(term.place.span()));
+                self.builder.complain(codes::NET_LINE, term.place.span(), message, "write a weight: `2*box`");
+            }
+            arcs.push(Arc { place, weight: self.weight(term) });
+        }
+        Some(arcs)
+    }
+
+    fn weight(&mut self, term: &ArcTerm) -> u32 {
+        match term.weight {
+            Some((0, span)) => {
+                self.builder.complain(
+                    codes::OUT_OF_RANGE,
+                    span,
+                    "expected a weight from 1, found 0",
+                    "leave the box out, or write INHIBIT",
+                );
+                1
+            }
+            Some((weight, _)) => weight,
+            None => 1,
+        }
+    }
+
+    /// Boxes that are looked at, of the net itself or of a part.
+    fn tested(&mut self, terms: &[ArcTerm]) -> Vec<Tested> {
+        let mut tested = Vec::new();
+        for term in terms {
+            let weight = self.weight(term);
+            match term.place.part {
+                None => {
+                    tested.extend(self.builder.own_box(term.place).map(|place| Tested { part: None, place, weight }))
+                }
+                Some(_) => tested.extend(self.inner(term.place).map(|(part, place)| Tested {
+                    part: Some(part),
+                    place,
+                    weight,
+                })),
+            }
+        }
+        tested
+    }
+
+    /// A box of a part.
+    fn inner(&mut self, name: BoxName) -> Option<(PartId, BoxId)> {
+        let part = name.part?;
+        let id = match self.builder.names.get(&part.symbol).map(|(thing, _)| *thing) {
+            Some(Thing::Part(id)) => id,
+            Some(Thing::Box(place)) => match self.builder.net.place(place).kind {
+                Kind::Macro(id) => id,
+                _ => {
+                    let message = format!("expected a macro or a module, found the box `{}`", self.builder.text(part));
+                    self.builder.complain(codes::NET_NAME, part.span, message, "only parts have boxes of their own");
+                    return None;
+                }
+            },
+            Some(Thing::Spoiled) => return None,
+            Some(Thing::Port | Thing::Param | Thing::Word(_)) | None => {
+                self.builder.unknown(part, "a macro or a module");
+                return None;
+            }
+        };
+        let statement = self.builder.net.parts.get(id.0 as usize)?.statement;
+        let code = self.builder.statements[statement.0 as usize].code;
+        let code = self.builder.text(code);
+        let inner = self.builder.catalogue.find(&code).and_then(|decl| decl.net.as_deref())?;
+        let text = self.builder.text(name.name);
+        let found = inner.boxes.iter().position(|place| place.name == text);
+        if found.is_none() {
+            let known: Vec<&str> = inner.boxes.iter().map(|place| place.name.as_str()).collect();
+            let help = suggest::help(&text, known.iter().copied())
+                .unwrap_or_else(|| format!("its boxes are {}", known.join(", ")));
+            let message = format!("expected a box of `{code}`, found `{text}`");
+            self.builder.complain(codes::NET_NAME, name.name.span, message, &help);
+        }
+        found.map(|place| (id, BoxId(place as u32)))
+    }
+
+    fn weights(&mut self, gate: &Gate, terms: &[ArcTerm], takes: bool) {
+        let arcs = if takes { &gate.before } else { &gate.after };
+        for (arc, term) in arcs.iter().zip(terms) {
+            let place = self.builder.net.place(arc.place);
+            let most = match (place.capacity, &place.kind) {
+                (_, Kind::Count) if takes => Some(1),
+                (capacity, _) => capacity,
+            };
+            if let Some(most) = most.filter(|most| arc.weight > *most) {
+                let message =
+                    format!("expected at most {most} tokens from or to `{}`, found {}", place.name, arc.weight);
+                let span = term.weight.map_or(term.place.span(), |(_, span)| span);
+                self.builder.complain(codes::CAPACITY, span, message, "the gate could never fire");
+            }
+            let place = self.builder.net.place(arc.place);
+            if arc.weight > 1 && place.class.is_some() {
+                let message =
+                    format!("expected one token of a class through an arc, found {} of `{}`", arc.weight, place.name);
+                self.builder.complain(
+                    codes::TOKEN_CLASS,
+                    term.place.span(),
+                    message,
+                    "tokens with attributes move one by one",
+                );
+            }
+        }
+    }
+
+    fn rule(&mut self, gate: &Gate, lines: RuleLines) -> Rule {
+        let RuleLines { condition, routes, actions, span } = lines;
+        let (looks, clears) =
+            condition.as_ref().map_or((Vec::new(), Vec::new()), |condition| self.reads(gate, condition));
+        let moves = if routes.is_empty() { self.plain_moves(gate, span) } else { self.moves(gate, &routes, span) };
+        let condition = condition.map(|condition| self.builder.statement(condition));
+        let actions = actions.into_iter().map(|statement| self.builder.action(statement)).collect();
+        Rule { condition, looks, clears, moves, actions, span }
+    }
+
+    /// The boxes whose tokens a condition looks at, and the commands that it reads.
+    fn reads(&mut self, gate: &Gate, condition: &Statement) -> (Vec<BoxId>, Vec<WordId>) {
+        let (mut looks, mut clears) = (Vec::new(), Vec::new());
+        for item in condition.inputs() {
+            match &item.value {
+                Operand::Member(member) => {
+                    let Some((Thing::Box(place), _)) = self.builder.names.get(&member.0.symbol).copied() else {
+                        continue;
+                    };
+                    let before = gate.before.iter().any(|arc| arc.place == place);
+                    let read = gate.reads.iter().any(|tested| tested.part.is_none() && tested.place == place);
+                    if (before || read) && !looks.contains(&place) {
+                        looks.push(place);
+                    }
+                }
+                Operand::Name(name) => {
+                    if let Some((Thing::Word(word), _)) = self.builder.names.get(&name.symbol).copied() {
+                        let command = self.builder.net.momentary.iter().any(|(_, command)| *command == word);
+                        if command && !clears.contains(&word) {
+                            clears.push(word);
+                        }
+                    }
+                }
+                Operand::Empty | Operand::Element(_) | Operand::Number(_) | Operand::Text(_) => {}
+            }
+        }
+        (looks, clears)
+    }
+
+    /// Without THEN: one before and one after, and the token moves; else each box after the gate gets the token of the
+    /// first box before it.
+    fn plain_moves(&mut self, gate: &Gate, span: Span) -> Vec<Move> {
+        let mut moves: Vec<Move> =
+            (0..gate.before.len() as u32).map(|from| Move { from: Some(from), to: Vec::new() }).collect();
+        let first = gate.before.first().map(|arc| self.builder.net.place(arc.place).class);
+        for (i, arc) in gate.after.iter().enumerate() {
+            let place = self.builder.net.place(arc.place);
+            match (place.class, first) {
+                (None, Some(_)) if first == Some(None) => moves[0].to.push(i as u32),
+                (None, _) => moves.push(Move { from: None, to: vec![i as u32] }),
+                (Some(class), Some(Some(own))) if class == own => moves[0].to.push(i as u32),
+                (Some(class), _) => {
+                    let class = self.builder.net.classes[class.0 as usize].name.clone();
+                    let message = format!(
+                        "expected a token of the class `{class}` for `{}`, found another or none before the gate",
+                        place.name
+                    );
+                    self.builder.complain(codes::TOKEN_CLASS, span, message, "say with THEN which token goes where");
+                }
+            }
+        }
+        moves
+    }
+
+    fn moves(&mut self, gate: &Gate, routes: &[Route], span: Span) -> Vec<Move> {
+        let mut moves = Vec::new();
+        let mut filled = vec![false; gate.after.len()];
+        let mut used = vec![false; gate.before.len()];
+        for route in routes {
+            let from = match route.from {
+                Some(name) => match self.place_of(name, &gate.before, "before") {
+                    Some(index) => Some(index),
+                    None => continue,
+                },
+                None => None,
+            };
+            if let Some(from) = from {
+                if std::mem::replace(&mut used[from as usize], true) {
+                    self.builder.complain(
+                        codes::ROUTE,
+                        route.span,
+                        "expected each box before the gate in one THEN, found it again",
+                        "name all its destinations in one THEN",
+                    );
+                }
+            }
+            let mut to = Vec::new();
+            for name in &route.to {
+                let Some(index) = self.place_of(*name, &gate.after, "after") else {
+                    continue;
+                };
+                if std::mem::replace(&mut filled[index as usize], true) {
+                    self.builder.complain(
+                        codes::ROUTE,
+                        name.span(),
+                        "expected one source for each box after the gate, found a second",
+                        "a box gets one token",
+                    );
+                }
+                self.classes(gate, from, index, name.span());
+                to.push(index);
+            }
+            moves.push(Move { from, to });
+        }
+        self.missing(gate, &used, &filled, span);
+        moves
+    }
+
+    fn classes(&mut self, gate: &Gate, from: Option<u32>, to: u32, span: Span) {
+        let class = |builder: &Builder<'_>, arc: &Arc| builder.net.place(arc.place).class;
+        let target = class(self.builder, &gate.after[to as usize]);
+        let source = match from {
+            Some(from) => class(self.builder, &gate.before[from as usize]),
+            None => target,
+        };
+        if source != target {
+            self.builder.complain(
+                codes::TOKEN_CLASS,
+                span,
+                "expected a box of the token's class, found one of another",
+                "let the token go to `nothing` and make one by `THEN NEW ->`",
+            );
+        }
+    }
+
+    fn missing(&mut self, gate: &Gate, used: &[bool], filled: &[bool], span: Span) {
+        for (arc, used) in gate.before.iter().zip(used) {
+            if !used {
+                let name = self.builder.net.place(arc.place).name.clone();
+                let message = format!("expected a THEN for each box before the gate, found none for `{name}`");
+                self.builder.complain(
+                    codes::ROUTE,
+                    span,
+                    message,
+                    &format!("say where its token goes: `THEN {name} -> nothing`"),
+                );
+            }
+        }
+        for (arc, filled) in gate.after.iter().zip(filled) {
+            // Another rule may fill it; a rule that leaves it out puts nothing there.
+            let _ = (arc, filled);
+        }
+    }
+
+    fn place_of(&mut self, name: BoxName, arcs: &[Arc], side: &str) -> Option<u32> {
+        let place = self.builder.own_box(name)?;
+        let index = arcs.iter().position(|arc| arc.place == place);
+        if index.is_none() {
+            let message = format!("expected a box {side} the gate, found `{}`", self.builder.written_text(name.span()));
+            self.builder.complain(codes::ROUTE, name.span(), message, "THEN speaks of the boxes in the GATE line");
+        }
+        index.map(|index| index as u32)
+    }
+}

@@ -1,0 +1,293 @@
+//! The `.net` front end: the lines of a net become a declaration.
+//!
+//! The passes run in this order; after each one the sentence beside it is true.
+//! 1. `outline`: every line stands with the box, part or gate that it belongs to.
+//! 2. `names`: every word, class, box and part has its place, and no two have one name.
+//! 3. `boxes`: every box knows its tokens and what it does.
+//! 4. `parts`: every part is connected.
+//! 5. `gates`: every token that a gate takes goes somewhere, and every one that it puts comes from somewhere.
+//! 6. `words`: every output is driven or written.
+//!
+//! Statements are not looked into here: the body of the declaration is compiled as a composite's is.
+
+mod boxes;
+mod gates;
+mod names;
+mod outline;
+mod parts;
+mod words;
+
+use pcl2_lang::ast::net::BoxName;
+use pcl2_lang::ast::net::NetLine;
+use pcl2_lang::ast::{Name, Number, Operand, Output, Statement};
+use pcl2_lang::catalogue::Catalogue;
+use pcl2_lang::codes::{self, Code};
+use pcl2_lang::decl::{BadRule, Decl};
+use pcl2_lang::declare::net::NetFile;
+use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::net::{BOX_OUTPUT, BoxId, Level, MAX_COUNT, MAX_WRITES, Net, PartId, StatementId, Touched, WordId};
+use pcl2_lang::source::{Sources, Span};
+use pcl2_lang::suggest;
+use pcl2_lang::symbol::{Symbol, Symbols};
+use pcl2_lang::types::{Real, Scalar, Value};
+use rustc_hash::FxHashMap;
+
+/// The nets that a net takes in: the codes of its parts.
+pub fn wanted(file: &NetFile) -> Vec<Name> {
+    let part = |line: &NetLine| match line {
+        NetLine::Part(_, _, call) => Some(call.code),
+        _ => None,
+    };
+    file.lines.iter().filter_map(part).collect()
+}
+
+/// Checks a net. Its parts stand in the catalogue. `None`: something is wrong, which was reported.
+pub fn compile(
+    file: NetFile,
+    sources: &Sources,
+    symbols: &mut Symbols,
+    catalogue: &Catalogue,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Decl> {
+    let before = mistakes(diagnostics);
+    let NetFile { decl, lines, sound } = file;
+    let mut builder = Builder::new(decl, sources, symbols, catalogue, diagnostics);
+    let mut outline = outline::outline(&mut builder, lines);
+    names::collect(&mut builder, &outline);
+    boxes::boxes(&mut builder, &mut outline);
+    parts::parts(&mut builder, &mut outline);
+    gates::gates(&mut builder, &mut outline);
+    words::words(&mut builder, &outline);
+    let whole = builder.finish();
+    (sound && mistakes(diagnostics) == before).then_some(whole)
+}
+
+fn mistakes(diagnostics: &[Diagnostic]) -> usize {
+    diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
+}
+
+/// A net in the making.
+pub(crate) struct Builder<'a> {
+    pub(crate) decl: Decl,
+    pub(crate) net: Net,
+    sources: &'a Sources,
+    symbols: &'a mut Symbols,
+    catalogue: &'a Catalogue,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    statements: Vec<Statement>,
+    names: FxHashMap<Symbol, (Thing, Span)>,
+    /// By word: statements write it, and where the first of them stands.
+    written: Vec<Option<Span>>,
+    /// By word: what drives it.
+    levels: Vec<Vec<Level>>,
+    empty: Symbol,
+}
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Thing {
+    Port,
+    Param,
+    Word(WordId),
+    Box(BoxId),
+    /// A module; a macro is a box.
+    Part(PartId),
+    /// Something with mistakes of its own.
+    Spoiled,
+}
+
+impl<'a> Builder<'a> {
+    fn new(
+        mut decl: Decl,
+        sources: &'a Sources,
+        symbols: &'a mut Symbols,
+        catalogue: &'a Catalogue,
+        diagnostics: &'a mut Vec<Diagnostic>,
+    ) -> Builder<'a> {
+        decl.bad = Some(BadRule::Logic);
+        let empty = symbols.intern("");
+        symbols.intern(BOX_OUTPUT);
+        Builder {
+            decl,
+            net: Net::default(),
+            sources,
+            symbols,
+            catalogue,
+            diagnostics,
+            statements: Vec::new(),
+            names: FxHashMap::default(),
+            written: Vec::new(),
+            levels: Vec::new(),
+            empty,
+        }
+    }
+
+    fn finish(self) -> Decl {
+        let mut decl = self.decl;
+        decl.period = self.net.has_time();
+        decl.body = Some(self.statements);
+        decl.net = Some(Box::new(self.net));
+        decl
+    }
+
+    pub(crate) fn complain(&mut self, code: Code, span: Span, message: impl Into<String>, help: &str) {
+        self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+    }
+
+    fn text(&self, name: Name) -> String {
+        self.symbols.text(name.symbol).to_owned()
+    }
+
+    fn written_text(&self, span: Span) -> &'a str {
+        self.sources.text(span)
+    }
+
+    /// Adds a statement to the body.
+    fn statement(&mut self, mut statement: Statement) -> StatementId {
+        let id = StatementId(self.statements.len() as u32);
+        if self.statements.len() == MAX_COUNT {
+            let message = format!("expected at most {MAX_COUNT} statements in a net, found more");
+            self.complain(codes::TOO_LARGE, statement.span, message, "divide the net");
+        }
+        let touched = self.touched(&statement);
+        if touched.writes.len() > MAX_WRITES {
+            let message = format!("expected at most {MAX_WRITES} outputs of a statement, found more");
+            self.complain(codes::TOO_LARGE, statement.span, message, "divide the statement");
+        }
+        self.net.touched.push(touched);
+        statement.number = Some((id.0, statement.span));
+        if statement.outputs.is_empty() {
+            statement.outputs = Box::new([Output::Discard(statement.span)]);
+        }
+        self.statements.push(statement);
+        id
+    }
+
+    /// Adds a statement that writes words or attributes.
+    fn action(&mut self, statement: Statement) -> StatementId {
+        for output in &statement.outputs {
+            let Output::Name(name) = *output else {
+                continue;
+            };
+            match self.names.get(&name.symbol).map(|(thing, _)| *thing) {
+                Some(Thing::Word(word)) => {
+                    self.written[word.0 as usize].get_or_insert(name.span);
+                }
+                Some(Thing::Spoiled) => {}
+                Some(Thing::Port | Thing::Param | Thing::Box(_) | Thing::Part(_)) => {
+                    let message = format!("expected an output or a local, found `{}`", self.text(name));
+                    self.complain(codes::NET_NAME, name.span, message, "inputs, parameters and boxes are not written");
+                }
+                None => self.unknown(name, "an output or a local"),
+            }
+        }
+        self.statement(statement)
+    }
+
+    /// What a statement touches. One that reads what it writes counts on, and is in no conflict.
+    fn touched(&self, statement: &Statement) -> Touched {
+        let mut touched = Touched::default();
+        let reads: Vec<Symbol> = statement.inputs().iter().filter_map(|item| named(&item.value)).collect();
+        let place = |owner: &Name| match self.names.get(&owner.symbol) {
+            Some((Thing::Box(place), _)) => Some(*place),
+            _ => None,
+        };
+        let read = statement.inputs().iter().filter_map(|item| match &item.value {
+            Operand::Member(member) => place(&member.0),
+            Operand::Name(_) | Operand::Empty | Operand::Element(_) | Operand::Number(_) | Operand::Text(_) => None,
+        });
+        let mut looks: Vec<BoxId> = read.collect();
+        for output in &statement.outputs {
+            match output {
+                Output::Member(owner, _) => looks.extend(place(owner)),
+                Output::Name(name) => {
+                    if let (Some((Thing::Word(word), _)), false) =
+                        (self.names.get(&name.symbol), reads.contains(&name.symbol))
+                    {
+                        touched.writes.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
+                    }
+                }
+                Output::Discard(_) => {}
+            }
+        }
+        looks.sort_unstable();
+        looks.dedup();
+        touched.looks = looks;
+        touched
+    }
+
+    /// Adds a statement for a value that is asked for.
+    fn value(&mut self, operand: Operand, span: Span) -> StatementId {
+        let code = Name { symbol: self.empty, span };
+        self.statement(Statement::value(operand, code))
+    }
+
+    fn unknown(&mut self, name: Name, expected: &str) {
+        let text = self.text(name);
+        let message = format!("expected {expected}, found `{text}`");
+        let report = Diagnostic::new(codes::NET_NAME, name.span, message);
+        let mut known: Vec<&str> = self.names.keys().map(|symbol| self.symbols.text(*symbol)).collect();
+        known.sort_unstable();
+        let help =
+            suggest::help(&text, known.into_iter()).unwrap_or_else(|| format!("nothing in the net is called `{text}`"));
+        self.diagnostics.push(report.help(help));
+        self.names.insert(name.symbol, (Thing::Spoiled, name.span));
+    }
+
+    /// The box of the net itself that a name stands for.
+    fn own_box(&mut self, name: BoxName) -> Option<BoxId> {
+        if name.part.is_some() {
+            let message = format!("expected a box of this net, found `{}`", self.written_text(name.span()));
+            self.complain(
+                codes::NET_NAME,
+                name.span(),
+                message,
+                "boxes of a part are read only: READ, INHIBIT or a condition",
+            );
+            return None;
+        }
+        match self.names.get(&name.name.symbol).map(|(thing, _)| *thing) {
+            Some(Thing::Box(id)) => Some(id),
+            Some(Thing::Spoiled) => None,
+            Some(Thing::Port | Thing::Param | Thing::Word(_) | Thing::Part(_)) => {
+                let message = format!("expected a box, found `{}`", self.text(name.name));
+                self.complain(codes::NET_NAME, name.name.span, message, "tokens move between boxes only");
+                None
+            }
+            None => {
+                self.unknown(name.name, "a box");
+                None
+            }
+        }
+    }
+
+    /// A first value in the number type of its place.
+    fn constant(&mut self, number: Number, span: Span, scalar: Scalar) -> Option<Value> {
+        match (number, scalar) {
+            (Number::Int(value), Scalar::Int) => Some(Value::Int(value)),
+            (Number::Int(value), Scalar::Real) => Some(Value::Real(Real::from_int(value))),
+            (Number::Real(value), Scalar::Real) => Some(Value::Real(value)),
+            (Number::Real(_), Scalar::Int) => {
+                let message = format!("expected an int, found the real `{}`", self.written_text(span));
+                self.complain(codes::VALUE_KIND, span, message, "write it without a dot, or declare a real");
+                None
+            }
+        }
+    }
+}
+
+/// The variable that stands in a place.
+fn named(operand: &Operand) -> Option<Symbol> {
+    match operand {
+        Operand::Name(name) => Some(name.symbol),
+        Operand::Empty | Operand::Element(_) | Operand::Member(_) | Operand::Number(_) | Operand::Text(_) => None,
+    }
+}
+
+/// What a scalar is before anybody writes it.
+fn zero(scalar: Scalar) -> Value {
+    match scalar {
+        Scalar::Int => Value::Int(0),
+        Scalar::Real => Value::Real(Real::ZERO),
+    }
+}

@@ -1,0 +1,85 @@
+//! Pass 6: every output is driven or written, never both.
+
+use super::outline::Outline;
+use super::{Builder, Thing};
+use pcl2_lang::ast::Name;
+use pcl2_lang::ast::net::ActiveLine;
+use pcl2_lang::codes;
+use pcl2_lang::net::{Active, Drive, WordId};
+use pcl2_lang::types::Scalar;
+
+/// Settles where each word's value comes from.
+pub(super) fn words(builder: &mut Builder<'_>, outline: &Outline) {
+    for active in &outline.actives {
+        self::active(builder, active);
+    }
+    for i in 0..builder.net.words.len() {
+        drive(builder, i);
+    }
+}
+
+fn drive(builder: &mut Builder<'_>, index: usize) {
+    let levels = std::mem::take(&mut builder.levels[index]);
+    let word = &builder.net.words[index];
+    let (name, span) = (word.name.clone(), word.span);
+    match (levels.is_empty(), builder.written[index]) {
+        (false, Some(place)) => {
+            let message = format!("expected `{name}` driven by boxes or written by statements, found both");
+            let help = "a level is true while a box is marked; what a statement writes stays: take two outputs";
+            builder.complain(codes::DRIVE, place, message, help);
+        }
+        (false, None) if word.scalar == Scalar::Real => {
+            let message = format!("expected an int for `{name}`, which boxes drive, found a real");
+            builder.complain(codes::DRIVE, span, message, "declare it int, or write it by SIGNAL boxes");
+        }
+        (false, None) => builder.net.words[index].drive = Drive::Level(levels),
+        (true, Some(_)) => {}
+        (true, None) if index < builder.net.outputs => {
+            let message = format!("expected a box that drives `{name}` or a statement that writes it, found none");
+            let help = format!("say `DRIVES {name}` at a box, or `DO {name} = ..`");
+            builder.complain(codes::DRIVE, span, message, &help);
+        }
+        // A local that nobody writes is a constant.
+        (true, None) => {}
+    }
+}
+
+fn active(builder: &mut Builder<'_>, line: &ActiveLine) {
+    let step = output(builder, line.step, Scalar::Int);
+    let time = line.time.map(|name| output(builder, name, Scalar::Real));
+    let boxes: Vec<_> = line.boxes.iter().filter_map(|name| builder.own_box(*name)).collect();
+    let (Some(step), Some(time)) = (step, time.map_or(Some(None), |time| time.map(Some))) else {
+        return;
+    };
+    builder.net.actives.push(Active { step, time, boxes });
+}
+
+fn output(builder: &mut Builder<'_>, name: Name, scalar: Scalar) -> Option<WordId> {
+    match builder.names.get(&name.symbol).map(|(thing, _)| *thing) {
+        Some(Thing::Word(word)) if builder.net.words[word.0 as usize].scalar == scalar => {
+            builder.written[word.0 as usize].get_or_insert(name.span);
+            Some(word)
+        }
+        Some(Thing::Word(_)) => {
+            let wanted = if scalar == Scalar::Int { "an int" } else { "a real" };
+            let message = format!("expected {wanted} here, found `{}`", builder.text(name));
+            builder.complain(
+                codes::TYPE_DIFFERS,
+                name.span,
+                message,
+                "ACTIVE gives the place of the marked box as an int, and the time in it as a real",
+            );
+            None
+        }
+        Some(Thing::Spoiled) => None,
+        Some(Thing::Port | Thing::Param | Thing::Box(_) | Thing::Part(_)) => {
+            let message = format!("expected an output, found `{}`", builder.text(name));
+            builder.complain(codes::NET_NAME, name.span, message, "ACTIVE fills outputs");
+            None
+        }
+        None => {
+            builder.unknown(name, "an output");
+            None
+        }
+    }
+}
