@@ -55,8 +55,9 @@ static void pcl2_seqgen_find(struct pcl2_seqgen *self, int32_t n, const pcl2_rea
 /* The time of one scan. */
 static void pcl2_seqgen_wait(struct pcl2_seqgen *self, int32_t thold)
 {
-    if (self->started != 0 && thold == 0 && self->limit > 0) {
-        self->elapsed = pcl2_elapse(self->elapsed, self->tick, self->limit);
+    const int64_t longest = INT64_C(1) << 62;
+    if (self->started != 0 && thold == 0) {
+        self->elapsed = pcl2_elapse(self->elapsed, self->tick, longest);
     }
 }
 
