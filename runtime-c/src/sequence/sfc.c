@@ -111,6 +111,6 @@ PCL2_KERNEL void pcl2_action(struct pcl2_action *self, const int32_t *x, int32_t
     const int32_t held = pcl2_action_is(active, ACTION_N)
         | pcl2_action_stored(self, ACTION_S, pcl2_action_is(active, ACTION_S), reset);
     const int32_t timed = pcl2_action_timed(self, active, reset);
-    self->q = !reset & (held | pulse | pcl2_action_is(falls, ACTION_P0) | timed);
+    self->q = reset ? 0 : (held | pulse | pcl2_action_is(falls, ACTION_P0) | timed);
     self->last = active;
 }
