@@ -81,13 +81,14 @@ fn dependencies_point_down() {
 // 1. No block is known to a crate.
 
 /// Words that the compiler has for itself and that are a function code's name too, each with the reason.
-const OWN_WORDS: [(&str, &str); 6] = [
+const OWN_WORDS: [(&str, &str); 7] = [
     ("add", "the suite has rustup add components"),
     ("eq", "short for equation in a declaration's comment"),
     ("hold", "a value of `bad` in [io]"),
     ("min", "the minutes of a plot's axis"),
     ("ratio", "a column of the benchmark's table"),
     ("sqrt", "the library function of C that compilers make of plain code"),
+    ("step", "the function of a program, and the entry of a kernel, that runs one scan"),
 ];
 
 #[test]

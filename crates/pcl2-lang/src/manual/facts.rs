@@ -198,5 +198,5 @@ pub(super) fn shows(example: &Example) -> String {
 
 /// The lines of an example's program.
 pub(super) fn program(example: &Example) -> impl Iterator<Item = &str> {
-    example.program.lines().map(str::trim).filter(|line| *line != "END" && !line.is_empty())
+    example.program.lines().map(str::trim_end).filter(|line| *line != "END" && !line.is_empty())
 }

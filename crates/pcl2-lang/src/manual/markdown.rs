@@ -75,8 +75,10 @@ fn describe(text: &mut String, decl: &Decl) {
     let _ = writeln!(text, "- **Declared in** [`{0}`](../{0}).", place(decl));
     text.push('\n');
     if let Some(example) = decl.examples.first() {
-        let _ = writeln!(text, "Example, {}:\n\n```pcl2\nCONTROL", escaped(&shows(example)));
-        for line in program(example).filter(|line| *line != "CONTROL") {
+        // An example without section words is all CONTROL.
+        let section = if program(example).any(|line| line == "CONTROL") { "" } else { "CONTROL\n" };
+        let _ = write!(text, "Example, {}:\n\n```pcl2\n{section}", escaped(&shows(example)));
+        for line in program(example) {
             let _ = writeln!(text, "{line}");
         }
         text.push_str("END\n```\n\n");
