@@ -3,3 +3,4 @@
 //! Nothing here touches files, clocks or the terminal.
 
 pub mod pt;
+pub mod structure;
