@@ -1,16 +1,17 @@
 //! Siphons and traps: sets of places that stay empty once they are empty, and sets that stay marked once they are.
 //!
 //! A siphon: each transition that puts into it also takes from it or reads in it. A trap: each transition that takes
-//! from it also puts into it or reads in it. Both sentences about staying hold with any weights, and inhibitors only
-//! take firings away.
+//! from it also puts into it, or reads more in it than it takes there. Both sentences about staying hold with any
+//! weights, and inhibitors only take firings away.
 //!
 //! A capacity that the P-invariants do not keep anyway is a place of its own: the room that is left. Putting takes room
 //! and taking puts it. An inhibitor of a place with room reads that room.
 
-use crate::pt::{Arc, PlaceId, PtNet, Transition};
+use crate::pt::{PlaceId, PtNet, Transition};
 use crate::structure::invariants::{p_invariants, place_bounds};
+use crate::structure::part::{ARC_KINDS, arcs};
 use fixedbitset::FixedBitSet;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 /// What a siphon or a trap consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -75,11 +76,7 @@ impl Flow {
         let mut flow = Flow::default();
         let rooms = flow.add_members(net);
         for transition in &net.transitions {
-            let (mut inputs, mut outputs) = ends(transition, &rooms);
-            for nodes in [&mut inputs, &mut outputs] {
-                nodes.sort_unstable();
-                nodes.dedup();
-            }
+            let (inputs, outputs) = ends(transition, &rooms);
             flow.inputs.push(inputs);
             flow.outputs.push(outputs);
         }
@@ -151,30 +148,34 @@ struct Room {
     capacity: u64,
 }
 
-/// The nodes that a transition needs, and those that it leaves marked.
+/// The nodes that a transition needs, and those that it leaves marked for sure.
 fn ends(transition: &Transition, rooms: &[Option<Room>]) -> (Vec<u32>, Vec<u32>) {
-    let nodes = |arcs: &[Arc]| arcs.iter().map(|arc| arc.place.0).collect::<Vec<u32>>();
-    let mut inputs = nodes(&transition.takes);
-    let mut outputs = nodes(&transition.puts);
-    for arc in transition.takes.iter().chain(&transition.puts) {
-        if let Some(room) = rooms[arc.place.0 as usize] {
-            let weight =
-                |arcs: &[Arc]| arcs.iter().find(|other| other.place == arc.place).map_or(0, |other| other.weight);
-            match weight(&transition.puts).cmp(&weight(&transition.takes)) {
-                std::cmp::Ordering::Greater => inputs.push(room.node),
-                std::cmp::Ordering::Less => outputs.push(room.node),
-                std::cmp::Ordering::Equal => {}
-            }
+    let mut inputs = Vec::new();
+    let mut outputs = Vec::new();
+    let mut note = |node: u32, taken: u64, put: u64, read: u64| {
+        inputs.extend((taken > 0 || read > 0).then_some(node));
+        // What is read may be taken by the same transition.
+        outputs.extend((put > 0 || read > taken).then_some(node));
+    };
+    for (place, [taken, put, read, blocked]) in weights(transition) {
+        note(place.0, taken, put, read);
+        if let Some(room) = rooms[place.0 as usize] {
+            let seen = if blocked == 0 { 0 } else { (room.capacity.saturating_add(1)).saturating_sub(blocked) };
+            note(room.node, put.saturating_sub(taken), taken.saturating_sub(put), seen);
         }
     }
-    let inhibits = transition.inhibits.iter().filter_map(|arc| {
-        let room = rooms[arc.place.0 as usize]?;
-        (arc.weight <= room.capacity).then_some(room.node)
-    });
-    let seen: Vec<u32> = nodes(&transition.reads).into_iter().chain(inhibits).collect();
-    inputs.extend(&seen);
-    outputs.extend(&seen);
     (inputs, outputs)
+}
+
+/// The weights of a transition's arcs by place, in the order of [`ARC_KINDS`].
+fn weights(transition: &Transition) -> BTreeMap<PlaceId, [u64; ARC_KINDS.len()]> {
+    let mut weights: BTreeMap<PlaceId, [u64; ARC_KINDS.len()]> = BTreeMap::new();
+    for (i, kind) in ARC_KINDS.into_iter().enumerate() {
+        for arc in arcs(transition, kind) {
+            weights.entry(arc.place).or_default()[i] = arc.weight;
+        }
+    }
+    weights
 }
 
 fn by_node(nodes: &[Vec<u32>], count: usize) -> Vec<Vec<u32>> {
