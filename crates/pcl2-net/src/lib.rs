@@ -5,5 +5,6 @@
 
 mod check;
 pub mod pt;
+pub mod structure;
 
 pub use check::{compile, wanted};

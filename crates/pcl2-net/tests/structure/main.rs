@@ -1,0 +1,10 @@
+//! The structure of nets: the paper's measuring tank, nets with known answers, and small nets with all answers tried.
+
+mod composing;
+mod conflicts;
+mod dividing;
+mod firing;
+mod invariants;
+mod nets;
+mod siphons;
+mod tank;
