@@ -159,8 +159,9 @@ fn only_solution(mut equations: Vec<Vec<i128>>, unknowns: usize) -> Option<Vec<u
         equations.swap(rank, at);
         for row in (0..equations.len()).filter(|row| *row != rank) {
             let (a, b) = (equations[rank][unknown], equations[row][unknown]);
-            for k in 0..unknowns {
-                equations[row][k] = equations[row][k] * a - equations[rank][k] * b;
+            let pivot = equations[rank].clone();
+            for (value, other) in equations[row].iter_mut().zip(&pivot) {
+                *value = *value * a - other * b;
             }
             let divisor = equations[row].iter().fold(0, |divisor, value| gcd(divisor, *value));
             equations[row].iter_mut().for_each(|value| *value /= divisor.max(1));
