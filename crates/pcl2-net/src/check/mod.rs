@@ -22,7 +22,7 @@ use pcl2_lang::ast::net::NetLine;
 use pcl2_lang::ast::{Name, Number, Operand, Output, Statement};
 use pcl2_lang::catalogue::Catalogue;
 use pcl2_lang::codes::{self, Code};
-use pcl2_lang::decl::{BadRule, Decl};
+use pcl2_lang::decl::{BadRule, Decl, Fault};
 use pcl2_lang::declare::net::NetFile;
 use pcl2_lang::diagnostic::Diagnostic;
 use pcl2_lang::net::{BOX_OUTPUT, BoxId, Level, MAX_COUNT, MAX_WRITES, Net, PartId, StatementId, Touched, WordId};
@@ -31,6 +31,14 @@ use pcl2_lang::suggest;
 use pcl2_lang::symbol::{Symbol, Symbols};
 use pcl2_lang::types::{Real, Scalar, Value};
 use rustc_hash::FxHashMap;
+
+/// What can go wrong in a scan of any net, in the order of the player's statuses.
+const FAULTS: [(&str, &str); 4] = [
+    ("lost", "a token was to be made while another waited for room: it is lost"),
+    ("conflict", "two different values were written to an output in one scan: the gate of higher priority wins"),
+    ("late", "a process was not complete within its supervision time"),
+    ("refused", "a token or a gate was forced without room or without tokens"),
+];
 
 /// The nets that a net takes in: the codes of its parts.
 pub fn wanted(file: &NetFile) -> Vec<Name> {
@@ -125,6 +133,8 @@ impl<'a> Builder<'a> {
     fn finish(self) -> Decl {
         let mut decl = self.decl;
         decl.period = self.net.has_time();
+        let fault = |(name, text): &(&str, &str)| Fault { name: (*name).to_owned(), text: (*text).to_owned() };
+        decl.faults = FAULTS.iter().map(fault).collect();
         decl.body = Some(self.statements);
         decl.net = Some(Box::new(self.net));
         decl

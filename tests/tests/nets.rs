@@ -1,0 +1,434 @@
+//! Nets as the player runs them: the papers' examples, what a scan promises, and random nets against a step of their own.
+
+use pcl2_tests::{pcl2, root, run};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// The values of each column of a trace.
+type Trace = BTreeMap<String, Vec<f64>>;
+
+/// Runs a program and reads its trace.
+fn trace(path: &Path, args: &[&str]) -> Trace {
+    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let mut trace = Trace::new();
+    for row in reader.records() {
+        for (name, value) in names.iter().zip(row.unwrap().iter()) {
+            trace.entry(name.clone()).or_default().push(value.parse().unwrap_or(f64::NAN));
+        }
+    }
+    trace
+}
+
+/// Runs nets written here: file name and text, the first is the program.
+fn traced(files: &[(&str, &str)], stimulus: &str, args: &[&str]) -> Trace {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let mut args = args.to_vec();
+    let file = folder.path().join("stimulus.csv");
+    let file = file.to_str().unwrap().to_owned();
+    if !stimulus.is_empty() {
+        fs::write(&file, stimulus).unwrap();
+        args.extend(["--stimulus", &file]);
+    }
+    trace(&folder.path().join(files[0].0), &args)
+}
+
+fn column<'t>(trace: &'t Trace, name: &str) -> &'t [f64] {
+    trace.get(name).unwrap_or_else(|| panic!("no column {name} in {:?}", trace.keys()))
+}
+
+/// The marked boxes of a net after a scan, in order of name.
+fn marked(trace: &Trace, scan: usize) -> Vec<&str> {
+    let boxes = trace.iter().filter_map(|(name, values)| Some((name.split_once('.')?.1, values)));
+    boxes.filter(|(_, values)| values[scan] > 0.).map(|(name, _)| name).collect()
+}
+
+fn tank() -> Trace {
+    let folder = tempfile::tempdir().unwrap();
+    let stimulus = folder.path().join("button.csv");
+    fs::write(&stimulus, "k,press,release\n0,1,0\n2,0,1\n").unwrap();
+    trace(&root().join("tests/nets/tank.net"), &["--steps", "18", "--stimulus", stimulus.to_str().unwrap()])
+}
+
+/// Jeong and Yang, equations (9), (15), (16), (17): the marked places after the scans.
+#[test]
+fn the_measuring_tank_gives_the_papers_vectors() {
+    let trace = tank();
+    let own = |scan: usize, names: &[&str]| -> Vec<&str> {
+        marked(&trace, scan).into_iter().filter(|name| names.contains(name)).collect()
+    };
+    let controller = ["S0", "S1", "S2", "S3", "S4", "S5", "S6", "P0", "P1"];
+    assert_eq!(own(1, &controller), ["P1", "S1"]);
+    let devices = ["L1", "L0", "V11", "V10", "Z12", "Z11", "Z10", "D21", "D20"];
+    assert_eq!(own(2, &devices), ["D21", "L0", "V11", "Z10"]);
+    assert_eq!(own(3, &devices), ["D21", "L0", "V11", "Z11"]);
+    assert_eq!(own(4, &devices), ["D20", "L0", "V11", "Z12"]);
+}
+
+/// From the button press back to the start are 16 maximal steps, and each transition fires once: each place but the
+/// level's middle one is entered once.
+#[test]
+fn the_measuring_tank_comes_back_in_sixteen_scans() {
+    let trace = tank();
+    let start = ["D10", "D21", "L1", "P0", "S0", "V10", "V20", "Z10"];
+    assert_eq!(marked(&trace, 15), start);
+    assert!((0..15).all(|scan| marked(&trace, scan) != start));
+    let initially = |name: &str| f64::from(u8::from(start.contains(&name)));
+    let mut entered = 0;
+    for (name, values) in trace.iter().filter_map(|(name, values)| Some((name.split_once('.')?.1, values))) {
+        let before = std::iter::once(initially(name)).chain(values.iter().copied());
+        let times = before.zip(values).filter(|(before, now)| **now > *before).count();
+        assert_eq!(times, if name == "Z11" { 2 } else { 1 }, "{name}");
+        entered += times;
+    }
+    assert_eq!(entered, 23);
+}
+
+/// Nagao and Kumagai, Fig. 9: one request, and the marked boxes after the scans.
+#[test]
+fn the_guided_vehicle_gives_the_figures_markings() {
+    let folder = root().join("tests/nets");
+    let stimulus = folder.join("agv.stimulus.csv");
+    let trace = trace(&folder.join("agv.net"), &["--steps", "33", "--stimulus", stimulus.to_str().unwrap()]);
+    let expected: [(usize, &[&str]); 11] = [
+        (0, &["b5"]),
+        (2, &["b11", "b13", "b5"]),
+        (3, &["b1", "b13"]),
+        (4, &["b1"]),
+        (10, &["b2"]),
+        (14, &["b3"]),
+        (15, &["b6"]),
+        (19, &["b7"]),
+        (24, &["b4"]),
+        (29, &["b14", "b5"]),
+        (31, &["b5"]),
+    ];
+    for (scan, boxes) in expected {
+        assert_eq!(marked(&trace, scan), boxes, "after scan {scan}");
+    }
+    let way = ["agv.b1", "agv.b2", "agv.b3", "agv.b4", "agv.b5", "agv.b6", "agv.b7"];
+    for scan in 0..33 {
+        let vehicles: f64 = way.iter().map(|name| column(&trace, name)[scan]).sum();
+        assert!((vehicles - 1.).abs() < 1e-9, "scan {scan}: {vehicles} vehicles");
+    }
+}
+
+/// A time box is excited when the time has passed, whatever it is made of.
+#[test]
+fn times_are_constants_parameters_and_inputs() {
+    let net = "int q1, int q2, int q3 = times ( real t : real limit = 0.3 )
+STATE go1 MARKED
+TIME a 0.3
+STATE end1 DRIVES q1
+GATE g1 : go1 -> a
+GATE g2 : a -> end1
+STATE go2 MARKED
+TIME b limit
+STATE end2 DRIVES q2
+GATE g3 : go2 -> b
+GATE g4 : b -> end2
+STATE go3 MARKED
+TIME c t
+STATE end3 DRIVES q3
+GATE g5 : go3 -> c
+GATE g6 : c -> end3
+END
+";
+    let trace = traced(&[("times.net", net)], "k,t\n0,0.3\n", &["--steps", "8", "--period", "0.1"]);
+    for output in ["q1", "q2", "q3"] {
+        let first = column(&trace, output).iter().position(|value| *value > 0.);
+        assert_eq!(first, Some(3), "{output}: the token came in scan 0");
+    }
+}
+
+/// A counting box is full after its number of tokens, and a token that it gives empties it.
+#[test]
+fn a_counting_box_counts() {
+    let net = "int q = counts ( int pulse : )
+GENERATE make SIZE 1 WHEN pulse
+COUNT three 3
+STATE full DRIVES q
+GATE g1 : make -> three
+GATE g2 : three -> full
+END
+";
+    let stimulus = "k,pulse\n0,1\n1,0\n2,1\n3,0\n4,1\n5,0\n6,1\n";
+    let trace = traced(&[("counts.net", net)], stimulus, &["--steps", "8"]);
+    assert_eq!(column(&trace, "counts.three"), [1., 1., 2., 2., 3., 0., 1., 1.]);
+    assert_eq!(column(&trace, "q"), [0., 0., 0., 0., 0., 1., 1., 1.]);
+}
+
+/// Without room one edge waits; a further one is lost, and the health record says so.
+#[test]
+fn a_token_that_nobody_takes_is_lost_and_told() {
+    let net = "= full ( int pulse : )\nGENERATE make SIZE 1 WHEN pulse\nSTATE other\nGATE g : make -> other IF 0\nEND\n";
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("full.net"), net).unwrap();
+    fs::write(folder.path().join("s.csv"), "k,pulse\n0,1\n1,0\n2,1\n3,0\n4,1\n").unwrap();
+    let (net, stimulus) = (folder.path().join("full.net"), folder.path().join("s.csv"));
+    let faults = |steps: &str| {
+        let output = run(pcl2().arg("run").arg(&net).arg("--stimulus").arg(&stimulus).args(["--steps", steps]));
+        assert!(output.status.success());
+        let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+        text.contains("it is lost")
+    };
+    assert!(!faults("4"), "one edge waits");
+    assert!(faults("5"), "the next is lost");
+}
+
+/// Two steps that count one word on entry both count, whatever their order.
+#[test]
+fn two_steps_that_count_one_word_both_count() {
+    let first = "OPERATION a MARKED DO n = n + 1\n";
+    let second = "OPERATION b MARKED DO n = n + 10\n";
+    for lines in [[first, second], [second, first]] {
+        let net = format!("int n = both ( : )\n{}{}END\n", lines[0], lines[1]);
+        let trace = traced(&[("both.net", &net)], "", &["--steps", "2"]);
+        assert_eq!(column(&trace, "n"), [11., 11.]);
+    }
+}
+
+/// A level that two steps in a row drive has no gap, whatever their order.
+#[test]
+fn a_level_of_two_steps_in_a_row_has_no_gap() {
+    let first = "STATE a MARKED DRIVES q\n";
+    let second = "STATE b DRIVES q\n";
+    for lines in [[first, second], [second, first]] {
+        let net = format!("int q = level ( int go : )\n{}{}GATE g : a -> b IF go\nEND\n", lines[0], lines[1]);
+        let trace = traced(&[("level.net", &net)], "k,go\n0,0\n2,1\n", &["--steps", "5"]);
+        assert_eq!(column(&trace, "q"), [1.; 5]);
+        assert_eq!(column(&trace, "level.b"), [0., 0., 1., 1., 1.]);
+    }
+}
+
+/// Two different writes of an output in one scan: that of the gate with the higher priority stays, whatever the order.
+#[test]
+fn of_two_writes_that_of_the_higher_priority_stays() {
+    let boxes = ["SIGNAL a DO v = 1.\n", "SIGNAL b DO v = 2.\n"];
+    for order in [[0, 1], [1, 0]] {
+        let net = format!(
+            "real v = writes ( : )\nSTATE p MARKED\nSTATE q MARKED\n{}{}GATE ga : p -> a\nGATE gb : q -> b PRIORITY 5\nEND\n",
+            boxes[order[0]], boxes[order[1]]
+        );
+        let trace = traced(&[("writes.net", &net)], "", &["--steps", "3"]);
+        assert_eq!(column(&trace, "v"), [0., 2., 2.]);
+    }
+}
+
+/// A macro's token runs through the net inside; the macro is excited when it stands at the exit.
+#[test]
+fn a_macro_is_entered_and_left() {
+    let outer = "int lamp = outer ( int go, int level : )
+STATE idle MARKED
+MACRO fill : lamp = filling ( level : )
+STATE done
+GATE start : idle -> fill IF go
+GATE end : fill -> done
+GATE again : done -> idle
+END
+";
+    let inner = "int open = filling ( int level : )
+ENTRY begin
+STATE running DRIVES open
+EXIT finished
+GATE g1 : begin -> running
+GATE g2 : running -> finished IF level
+END
+";
+    let stimulus = "k,go,level\n0,0,0\n1,1,0\n2,0,0\n4,0,1\n";
+    let trace = traced(&[("outer.net", outer), ("filling.net", inner)], stimulus, &["--steps", "8"]);
+    assert_eq!(column(&trace, "outer.fill"), [0., 1., 1., 1., 1., 0., 0., 0.]);
+    assert_eq!(column(&trace, "outer.done"), [0., 0., 0., 0., 0., 1., 0., 0.]);
+    assert_eq!(column(&trace, "lamp"), [0., 0., 1., 1., 0., 0., 0., 0.]);
+}
+
+/// A net is a function code: two instances in a configuration, and its boxes on wires.
+#[test]
+fn a_configuration_calls_nets() {
+    let net = "int q = toggle ( int up, int down : )
+STATE off MARKED
+STATE on DRIVES q
+GATE g1 : off -> on IF up
+GATE g2 : on -> off IF down
+END
+";
+    let program = "CONTROL
+1 one = msi ( : 1 )
+2 zero = msi ( : 0 )
+3 A = toggle ( one, zero : )
+4 B = toggle ( one, one : )
+5 y = A.on*10 + B.on
+END
+";
+    let trace = traced(&[("main.cfg", program), ("toggle.net", net)], "", &["--steps", "4"]);
+    assert_eq!(column(&trace, "A"), [1., 1., 1., 1.]);
+    assert_eq!(column(&trace, "B.on"), [1., 0., 1., 0.]);
+    assert_eq!(column(&trace, "y"), [11., 10., 11., 10.]);
+}
+
+/// A condition over a bad operand is not true, its negation neither.
+#[test]
+fn a_condition_over_a_bad_operand_is_not_true() {
+    let net = "int q, int r = bad ( real x : )
+STATE a MARKED
+STATE b DRIVES q
+STATE c MARKED
+STATE d DRIVES r
+GATE g1 : a -> b IF x > 0.
+GATE g2 : c -> d IF NOT x > 0.
+END
+";
+    let trace = traced(&[("bad.net", net)], "k,x\n0,nan\n2,1.\n", &["--steps", "4"]);
+    assert_eq!(column(&trace, "q"), [0., 0., 1., 1.]);
+    assert_eq!(column(&trace, "r"), [0.; 4]);
+}
+
+/// A small generator of numbers: the same nets everywhere.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % sides
+    }
+}
+
+/// A net of buffers: what a scan does is written down here once more, from the definition.
+struct Plain {
+    capacity: Vec<i64>,
+    start: Vec<i64>,
+    gates: Vec<PlainGate>,
+}
+
+struct PlainGate {
+    takes: Vec<(usize, i64)>,
+    puts: Vec<(usize, i64)>,
+    reads: Vec<(usize, i64)>,
+    inhibits: Vec<(usize, i64)>,
+    priority: i64,
+    input: Option<usize>,
+}
+
+const INPUTS: usize = 4;
+
+impl Plain {
+    fn random(dice: &mut Dice) -> Plain {
+        let places = 2 + dice.roll(6) as usize;
+        let capacity: Vec<i64> = (0..places).map(|_| 1 + dice.roll(4) as i64).collect();
+        let start = capacity.iter().map(|most| dice.roll(*most as u64 + 1) as i64).collect();
+        let arcs = |dice: &mut Dice, most: u64| {
+            let mut arcs: Vec<(usize, i64)> = Vec::new();
+            for _ in 0..dice.roll(most) {
+                let place = dice.roll(places as u64) as usize;
+                if arcs.iter().all(|(known, _)| *known != place) {
+                    let weight = 1 + dice.roll(2).min(capacity[place] as u64 - 1) as i64;
+                    arcs.push((place, weight));
+                }
+            }
+            arcs
+        };
+        let gates = (0..1 + dice.roll(8)).map(|_| PlainGate {
+            takes: arcs(dice, 3),
+            puts: arcs(dice, 3),
+            reads: arcs(dice, 2),
+            inhibits: arcs(dice, 2),
+            priority: dice.roll(3) as i64,
+            input: (dice.roll(2) == 0).then(|| dice.roll(INPUTS as u64) as usize),
+        });
+        let gates: Vec<PlainGate> = gates.collect();
+        Plain { capacity, start, gates }
+    }
+
+    fn text(&self) -> String {
+        let mut text = "= plain ( int x0, int x1, int x2, int x3 : )\n".to_owned();
+        for (i, (capacity, start)) in self.capacity.iter().zip(&self.start).enumerate() {
+            let marked = if *start > 0 { format!(" MARKED {start}") } else { String::new() };
+            let _ = writeln!(text, "CAPACITY p{i} SIZE {capacity}{marked}");
+        }
+        let list = |arcs: &[(usize, i64)]| {
+            arcs.iter().map(|(place, weight)| format!("{weight}*p{place}")).collect::<Vec<_>>().join(", ")
+        };
+        for (i, gate) in self.gates.iter().enumerate() {
+            let _ = write!(text, "GATE t{i} : {} -> {}", list(&gate.takes), list(&gate.puts));
+            for (word, arcs) in [("READ", &gate.reads), ("INHIBIT", &gate.inhibits)] {
+                if !arcs.is_empty() {
+                    let _ = write!(text, " {word} {}", list(arcs));
+                }
+            }
+            let _ = write!(text, " PRIORITY {}", gate.priority);
+            match gate.input {
+                Some(input) => drop(writeln!(text, " IF x{input}")),
+                None => text.push('\n'),
+            }
+        }
+        text + "END\n"
+    }
+
+    /// One scan from the definition: gates by priority, then in order; what was there at the start and is not taken.
+    fn step(&self, start: &[i64], inputs: &[bool; INPUTS]) -> Vec<i64> {
+        let mut order: Vec<usize> = (0..self.gates.len()).collect();
+        order.sort_by_key(|i| -self.gates[*i].priority);
+        let (mut taken, mut room, mut after) = (vec![0; start.len()], vec![0; start.len()], start.to_vec());
+        for gate in order.into_iter().map(|i| &self.gates[i]) {
+            let taken_by = |place: usize| gate.takes.iter().find(|(known, _)| *known == place).map_or(0, |(_, w)| *w);
+            let fits = |(place, weight): &(usize, i64)| {
+                let more = weight - taken_by(*place);
+                more <= 0 || start[*place] + room[*place] + more <= self.capacity[*place]
+            };
+            let enabled = gate.takes.iter().all(|(place, weight)| start[*place] - taken[*place] >= *weight)
+                && gate.reads.iter().all(|(place, weight)| start[*place] >= *weight)
+                && gate.inhibits.iter().all(|(place, weight)| start[*place] < *weight)
+                && gate.input.is_none_or(|input| inputs[input])
+                && gate.puts.iter().all(fits);
+            if !enabled {
+                continue;
+            }
+            for (place, weight) in &gate.puts {
+                room[*place] += (weight - taken_by(*place)).max(0);
+                after[*place] += weight;
+            }
+            for (place, weight) in &gate.takes {
+                taken[*place] += weight;
+                after[*place] -= weight;
+            }
+        }
+        after
+    }
+}
+
+/// Random nets with weights, capacities, read and inhibitor arcs, priorities and inputs, against the definition.
+#[test]
+fn random_nets_do_what_the_definition_says() {
+    let mut dice = Dice(20_261_129);
+    let scans = 60;
+    let mut moved = 0;
+    for number in 0..250 {
+        let net = Plain::random(&mut dice);
+        let inputs: Vec<[bool; INPUTS]> = (0..scans).map(|_| std::array::from_fn(|_| dice.roll(2) == 0)).collect();
+        let mut stimulus = "k,x0,x1,x2,x3\n".to_owned();
+        for (k, row) in inputs.iter().enumerate() {
+            let row: Vec<String> = row.iter().map(|x| u8::from(*x).to_string()).collect();
+            let _ = writeln!(stimulus, "{k},{}", row.join(","));
+        }
+        let text = net.text();
+        let trace = traced(&[("plain.net", &text)], &stimulus, &["--steps", &scans.to_string()]);
+        let mut marking = net.start.clone();
+        for (scan, row) in inputs.iter().enumerate() {
+            let next = net.step(&marking, row);
+            moved += usize::from(next != marking);
+            marking = next;
+            for (place, tokens) in marking.iter().enumerate() {
+                let found = column(&trace, &format!("plain.p{place}"))[scan];
+                assert!((found - *tokens as f64).abs() < 0.5, "net {number}, scan {scan}, p{place}: {found}, not {tokens}\n{text}");
+            }
+        }
+    }
+    assert!(moved > 500, "only {moved} scans moved a token");
+}
