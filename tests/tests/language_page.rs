@@ -1,4 +1,4 @@
-//! The programs of the language reference and of the page on sequences.
+//! The programs of the language reference and of the pages on nets and on sequences.
 
 use pcl2_tests::fences::{Example, examples};
 use pcl2_tests::{none, root, run};
@@ -6,7 +6,7 @@ use std::fs;
 use std::process::Output;
 
 /// The pages, and how many programs they have at least.
-const PAGES: [(&str, usize); 2] = [("docs/language.md", 11), ("docs/sequences.md", 3)];
+const PAGES: [(&str, usize); 3] = [("docs/language.md", 11), ("docs/nets.md", 4), ("docs/sequences.md", 3)];
 
 /// All programs, each with its page.
 fn programs() -> Vec<(&'static str, Example)> {

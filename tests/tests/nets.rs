@@ -168,7 +168,8 @@ END
 /// Without room one edge waits; a further one is lost, and the health record says so.
 #[test]
 fn a_token_that_nobody_takes_is_lost_and_told() {
-    let net = "= full ( int pulse : )\nGENERATE make SIZE 1 WHEN pulse\nSTATE other\nGATE g : make -> other IF 0\nEND\n";
+    let net =
+        "= full ( int pulse : )\nGENERATE make SIZE 1 WHEN pulse\nSTATE other\nGATE g : make -> other IF 0\nEND\n";
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("full.net"), net).unwrap();
     fs::write(folder.path().join("s.csv"), "k,pulse\n0,1\n1,0\n2,1\n3,0\n4,1\n").unwrap();
@@ -288,6 +289,163 @@ END
     let trace = traced(&[("bad.net", net)], "k,x\n0,nan\n2,1.\n", &["--steps", "4"]);
     assert_eq!(column(&trace, "q"), [0., 0., 1., 1.]);
     assert_eq!(column(&trace, "r"), [0.; 4]);
+}
+
+/// A macro is emptied from any step; its token goes to the box that is named, and what ABORT does is done.
+#[test]
+fn a_macro_is_aborted_from_any_step() {
+    let outer = "int stopped = outer ( int go, int trip : )
+LOCAL int trips
+STATE idle MARKED
+MACRO fill = filling ( : )
+ABORT trip -> failed
+DO trips = trips + 1
+STATE failed DRIVES stopped
+GATE start : idle -> fill IF go
+GATE reset : failed -> idle IF NOT trip
+END
+";
+    let inner = "= filling ( : )
+ENTRY begin
+STATE left
+STATE right
+EXIT finished
+GATE g1 : begin -> left, right
+GATE g2 : left, right -> finished IF 0
+END
+";
+    let stimulus = "k,go,trip\n0,1,0\n1,0,0\n3,0,1\n5,0,0\n";
+    let trace = traced(&[("outer.net", outer), ("filling.net", inner)], stimulus, &["--steps", "8"]);
+    assert_eq!(column(&trace, "outer.fill"), [1., 1., 1., 0., 0., 0., 0., 0.]);
+    assert_eq!(column(&trace, "stopped"), [0., 0., 0., 1., 1., 0., 0., 0.]);
+    assert_eq!(column(&trace, "outer.idle"), [0., 0., 0., 0., 0., 1., 1., 1.]);
+}
+
+/// Tokens leave a queue in its order, and carry their attributes along.
+#[test]
+fn queues_give_tokens_in_their_order() {
+    let orders = [("fifo", [3., 1., 2.]), ("lifo", [2., 1., 3.]), ("least n", [1., 2., 3.]), ("most n", [3., 2., 1.])];
+    for (order, expected) in orders {
+        let net = format!(
+            "int out = queue ( int in, int n, int go : )
+CLASS job ( int n = 0 )
+GENERATE make OF job SIZE 1 WHEN in DO make.n = n
+CAPACITY wait OF job SIZE 5 ORDER {order}
+OPERATION show OF job DO out = show.n
+GATE g1 : make -> wait
+GATE g2 : wait -> show IF go
+GATE g3 : show ->
+END
+"
+        );
+        let stimulus = "k,in,n,go\n0,1,3,0\n1,0,3,0\n2,1,1,0\n3,0,1,0\n4,1,2,0\n5,0,2,1\n";
+        let trace = traced(&[("queue.net", &net)], stimulus, &["--steps", "12"]);
+        let shown: Vec<f64> = [6, 8, 10].iter().map(|scan| column(&trace, "out")[*scan]).collect();
+        assert_eq!(shown, expected, "{order}");
+    }
+}
+
+/// A process is supervised: AFTER learns the cause, and waits as long as it says so.
+#[test]
+fn a_process_waits_as_long_as_after_says() {
+    let net = "int cause, int tries, int q = sup ( int done : )
+STATE idle MARKED
+PROCESS send UNTIL done WITHIN 0.2
+AFTER cause = send.cause + 1
+AFTER tries = tries + 1
+AFTER send.ready = (tries >= 3) OR send.cause == 0
+STATE end DRIVES q
+GATE g1 : idle -> send
+GATE g2 : send -> end
+END
+";
+    let late = traced(&[("sup.net", net)], "k,done\n0,0\n", &["--steps", "12", "--period", "0.1"]);
+    assert_eq!(column(&late, "tries"), [0., 0., 0., 1., 1., 2., 2., 3., 3., 3., 3., 3.]);
+    assert_eq!(column(&late, "q").iter().position(|q| *q > 0.), Some(7));
+    assert!((column(&late, "cause")[11] - 2.).abs() < 0.5);
+    let done = traced(&[("sup.net", net)], "k,done\n0,0\n2,1\n", &["--steps", "6", "--period", "0.1"]);
+    assert_eq!(column(&done, "cause"), [0., 0., 1., 1., 1., 1.]);
+    assert_eq!(column(&done, "q"), [0., 0., 1., 1., 1., 1.]);
+}
+
+/// A gate takes the first token that satisfies its condition, and a permissive holds it back.
+#[test]
+fn gates_choose_tokens_and_ask_permissives() {
+    let net = "int got = choose ( int want, int closed : )
+CLASS part ( int kind = 0 )
+STATE a OF part MARKED ( kind = 1 )
+STATE b OF part MARKED ( kind = 2 )
+CAPACITY store OF part SIZE 3
+OPERATION taken OF part DO got = taken.kind
+GATE g1 : a -> store
+GATE g2 : b -> store PRIORITY 1
+GATE g3 : store -> taken PERMIT closed IF store.kind == want
+END
+";
+    let stimulus = "k,want,closed\n0,1,0\n3,1,1\n";
+    let trace = traced(&[("choose.net", net)], stimulus, &["--steps", "6"]);
+    assert_eq!(column(&trace, "choose.store"), [2., 2., 2., 1., 1., 1.]);
+    assert_eq!(column(&trace, "got"), [0., 0., 0., 0., 1., 1.]);
+}
+
+/// ACTIVE tells which box is marked and since when; FOR makes boxes with an index; modules run beside.
+#[test]
+fn active_boxes_repeated_lines_and_modules() {
+    let outer = "int step, real t = line ( int go : )
+LOCAL int busy
+FOR i = 1 TO 3
+STATE s[i]
+NEXT
+STATE s0 MARKED
+MODULE lamp : busy = blink ( s[2] : )
+GATE g0 : s0 -> s[1] IF go
+FOR i = 1 TO 2
+GATE g[i] : s[i] -> s[i+1]
+NEXT
+GATE g3 : s[3] -> s0 IF busy
+ACTIVE step, t OF s0, s[1], s[2], s[3]
+END
+";
+    let inner = "int on = blink ( int run : )
+STATE dark MARKED
+STATE bright DRIVES on
+GATE up : dark -> bright IF run
+END
+";
+    let trace = traced(
+        &[("line.net", outer), ("blink.net", inner)],
+        "k,go\n0,0\n1,1\n2,0\n",
+        &["--steps", "7", "--period", "0.5"],
+    );
+    assert_eq!(column(&trace, "step"), [1., 2., 3., 4., 1., 1., 1.]);
+    assert_eq!(column(&trace, "t"), [0., 0., 0., 0., 0., 0.5, 1.]);
+}
+
+/// What is wrong in a net is told at its place, and nothing runs.
+#[test]
+fn nets_with_mistakes_are_refused() {
+    let head = "= bad ( int x : )\n";
+    let cases = [
+        ("STATE a MARKED\nGATE g : a -> b\nEND\n", "P0401"),
+        ("STATE a\nSTATE a\nEND\n", "P0402"),
+        ("CAPACITY a SIZE 2 MARKED 3\nEND\n", "P0404"),
+        ("MACRO m = bad ( x : )\nEND\n", "P0406"),
+        ("STATE a SIZE 3\nEND\n", "P0408"),
+        ("STATE a MARKED\nGATE g : a -> IF 1.5\nEND\n", "P0409"),
+        ("CLASS c ( int n )\nSTATE a OF c\nSTATE b\nGATE g : b -> a\nEND\n", "P0405"),
+        ("STATE a MARKED\n", "P0006"),
+        ("OPERATION o DO nobody ( x : )\nEND\n", "P0101"),
+        ("GATE g : a ->\nTHEN\nEND\n", "P0002"),
+    ];
+    for (text, code) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("bad.net");
+        fs::write(&file, format!("{head}{text}")).unwrap();
+        let output = run(pcl2().arg("check").arg(&file));
+        let shown = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{text}\n{shown}");
+        assert!(shown.contains(code), "{code} for\n{text}\nfound\n{shown}");
+    }
 }
 
 /// A small generator of numbers: the same nets everywhere.
@@ -426,7 +584,10 @@ fn random_nets_do_what_the_definition_says() {
             marking = next;
             for (place, tokens) in marking.iter().enumerate() {
                 let found = column(&trace, &format!("plain.p{place}"))[scan];
-                assert!((found - *tokens as f64).abs() < 0.5, "net {number}, scan {scan}, p{place}: {found}, not {tokens}\n{text}");
+                assert!(
+                    (found - *tokens as f64).abs() < 0.5,
+                    "net {number}, scan {scan}, p{place}: {found}, not {tokens}\n{text}"
+                );
             }
         }
     }

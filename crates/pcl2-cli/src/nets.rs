@@ -8,6 +8,7 @@ use pcl2_lang::declare::net::{self, NetFile};
 use pcl2_lang::diagnostic::Diagnostic;
 use pcl2_lang::source::FileId;
 use pcl2_lang::syntax::Tree;
+use rustc_hash::FxHashSet;
 use std::path::Path;
 
 /// Nets stand in one another at most so deep.
@@ -28,9 +29,10 @@ pub(crate) fn tree(loader: &mut Loader, file: FileId, stem: &str, catalogue: &mu
 
 /// Reads the nets that the blocks of a program call.
 pub(crate) fn wanted(loader: &mut Loader, tree: &Tree, catalogue: &mut Catalogue) {
+    let mut seen = FxHashSet::default();
     for line in &tree.lines {
         if let Line::Block(statement) = line {
-            if statement.formula.is_none() {
+            if statement.formula.is_none() && seen.insert(statement.code.symbol) {
                 find(loader, statement.code, catalogue, &mut Vec::new());
             }
         }
@@ -50,7 +52,7 @@ fn add(loader: &mut Loader, file: NetFile, catalogue: &mut Catalogue, open: &mut
     }
 }
 
-/// Looks for the net of a code that is not known.
+/// Looks for the net of a code, which wins over a function code of the catalogue.
 fn find(loader: &mut Loader, code: Name, catalogue: &mut Catalogue, open: &mut Vec<String>) {
     let name = loader.symbols.text(code.symbol).to_owned();
     if open.contains(&name) || open.len() > MAX_DEPTH {
@@ -60,7 +62,7 @@ fn find(loader: &mut Loader, code: Name, catalogue: &mut Catalogue, open: &mut V
         catalogue.spoil(&name);
         return;
     }
-    if catalogue.find(&name).is_some() || catalogue.is_spoiled(&name) {
+    if catalogue.find(&name).is_some_and(|decl| decl.user) || catalogue.is_spoiled(&name) {
         return;
     }
     let folders = loader.net_folders.clone();

@@ -145,7 +145,6 @@ pub enum Key {
     Or,
     Not,
     Momentary,
-    Modes,
     Local,
     Class,
     State,
@@ -179,7 +178,6 @@ pub enum Key {
     Inhibit,
     Priority,
     Permit,
-    Stop,
     Abort,
     Active,
     For,
@@ -200,8 +198,8 @@ impl Key {
             Key::Inline | Key::Simulated | Key::Operator | Key::Example | Key::After | Key::Body => true,
             Key::And | Key::Or | Key::Not | Key::New | Key::Nothing | Key::Of | Key::Size | Key::Order => false,
             Key::Marked | Key::Drives | Key::Read | Key::Inhibit | Key::Priority | Key::Permit => false,
-            Key::Stop | Key::Until | Key::Within | Key::When | Key::Upto => false,
-            Key::Momentary | Key::Modes | Key::Local | Key::Class => true,
+            Key::Until | Key::Within | Key::When | Key::Upto => false,
+            Key::Momentary | Key::Local | Key::Class => true,
             Key::State | Key::Capacity | Key::Timer | Key::Count | Key::Operation | Key::Signal | Key::Process => true,
             Key::Generate | Key::Entry | Key::Exit | Key::Macro | Key::Module | Key::Gate | Key::If | Key::Else => true,
             Key::Then | Key::Do | Key::Abort | Key::Active | Key::For | Key::Next => true,
@@ -258,14 +256,13 @@ pub const DECLARATION_WORDS: [(&str, Key); 33] = [
 ];
 
 /// The words of nets: reserved in `.net` files.
-pub const NET_WORDS: [(&str, Key); 49] = [
+pub const NET_WORDS: [(&str, Key); 47] = [
     ("END", Key::End),
     ("int", Key::Int),
     ("real", Key::Real),
     ("AFTER", Key::After),
     ("TO", Key::Upto),
     ("MOMENTARY", Key::Momentary),
-    ("MODES", Key::Modes),
     ("START", Key::Start),
     ("LOCAL", Key::Local),
     ("CLASS", Key::Class),
@@ -300,7 +297,6 @@ pub const NET_WORDS: [(&str, Key); 49] = [
     ("INHIBIT", Key::Inhibit),
     ("PRIORITY", Key::Priority),
     ("PERMIT", Key::Permit),
-    ("STOP", Key::Stop),
     ("ABORT", Key::Abort),
     ("ACTIVE", Key::Active),
     ("FOR", Key::For),

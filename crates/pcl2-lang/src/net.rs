@@ -48,8 +48,6 @@ pub struct Net {
     pub exit: Option<BoxId>,
     /// Outputs that tell which box is marked.
     pub actives: Vec<Active>,
-    /// The operator's modes and commands, if the net has them.
-    pub modes: Option<Modes>,
     /// By statement: what it touches.
     pub touched: Vec<Touched>,
 }
@@ -118,21 +116,10 @@ pub struct Word {
     pub scalar: Scalar,
     /// What it is before anybody writes it.
     pub initial: Value,
-    /// What it is while the net is stopped.
-    pub stop: Stop,
     /// Where its value comes from.
     pub drive: Drive,
     /// Where it is declared.
     pub span: Span,
-}
-
-/// What an output is while the net is stopped.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Stop {
-    /// What stands there stays.
-    Hold,
-    /// This value.
-    Value(Value),
 }
 
 /// Where a word's value comes from.
@@ -346,21 +333,6 @@ pub struct Active {
     pub time: Option<WordId>,
     /// The boxes.
     pub boxes: Vec<BoxId>,
-}
-
-/// The words of the operator's modes and commands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Modes {
-    /// The port: 0 automatic, 1 step by step, 2 manual, 3 stopped.
-    pub mode: u32,
-    /// A step, in step mode.
-    pub go: WordId,
-    /// The gate to fire, from 1, in manual mode.
-    pub fire: WordId,
-    /// The box that gets a token, from 1, in manual mode.
-    pub put: WordId,
-    /// The box that loses a token, from 1, in manual mode.
-    pub take: WordId,
 }
 
 /// A signal that a net keeps.

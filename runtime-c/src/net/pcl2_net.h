@@ -11,7 +11,6 @@
 #define PCL2_NET_LOST 1     /* a token was to be made while one was waiting for room: it is lost */
 #define PCL2_NET_CONFLICT 2 /* two different values were written in one scan: the gate of higher priority wins */
 #define PCL2_NET_TIMEOUT 3  /* a process box was not complete within its supervision time */
-#define PCL2_NET_REFUSED 4  /* a token or a gate was forced without room or without tokens */
 
 /* The words at the start of a table: counts, and where records begin. */
 enum {
@@ -22,7 +21,7 @@ enum {
     PCL2_NET_GATES,   /* by gate: where its record begins */
     PCL2_NET_SCRIPTS, /* by statement: where its record begins */
     PCL2_NET_CLASSES, /* by class: where its record begins */
-    PCL2_NET_WORDS,   /* by word: bit 0 a real, bit 1 it has a value while the net is stopped */
+    PCL2_NET_WORDS,   /* by word: 1 a real, 0 an int */
     PCL2_NET_LEVELS,  /* words that boxes drive */
     PCL2_NET_ACTIVES, /* words that tell the marked box */
     PCL2_NET_PARTS,   /* nets inside */

@@ -9,12 +9,8 @@ use crate::types::Scalar;
 pub enum NetLine {
     /// `START out = value, ..`: what outputs are before anybody writes them.
     Start(Vec<Preset>),
-    /// `STOP out = value, ..`: what outputs are while the net is stopped.
-    Stop(Vec<Preset>),
     /// `MOMENTARY start, ..`: cells that a gate clears when it fires.
     Momentary(Vec<Name>),
-    /// `MODES`: the operator has modes and commands.
-    Modes(Span),
     /// `LOCAL int n = 0, ..`
     Local(Vec<Typed>),
     /// `CLASS order ( int kind = 1, .. )`
@@ -68,8 +64,8 @@ impl BoxName {
 pub struct Preset {
     /// What gets the value.
     pub name: Name,
-    /// The value; `None`: the word `hold`.
-    pub value: Option<Number>,
+    /// The value.
+    pub value: Number,
     /// Where the value stands.
     pub span: Span,
 }

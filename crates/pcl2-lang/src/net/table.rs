@@ -1,8 +1,6 @@
 //! A net as the table that the player of the runtime walks (`runtime-c/include/pcl2_net.h`).
 
-use super::{
-    Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Stop, Tested,
-};
+use super::{Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Tested};
 use crate::types::{Real, Scalar, Value};
 
 /// A net as a table, and what an instance keeps beside.
@@ -45,8 +43,7 @@ pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<&'a Net>) -> Table 
     builder.records(List::Scripts, net.touched.len(), |builder, i| builder.script(i));
     builder.start(List::Words);
     for word in &net.words {
-        let stops = matches!(word.stop, Stop::Value(_));
-        builder.push([i32::from(word.scalar == Scalar::Real) | i32::from(stops) << 1]);
+        builder.push([i32::from(word.scalar == Scalar::Real)]);
     }
     builder.levels();
     builder.actives();

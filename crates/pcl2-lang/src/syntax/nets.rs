@@ -2,7 +2,7 @@
 
 use super::{Context, Lines, cfg};
 use crate::ast::Name;
-use crate::ast::net::{BoxName, NetLine, Preset};
+use crate::ast::net::{BoxName, NetLine};
 use crate::codes;
 use crate::diagnostic::{self, Diagnostic};
 use crate::lexer::{Key, Lexeme, Token};
@@ -168,20 +168,7 @@ impl Context<'_> {
             _ => name,
         }
     }
-
-    /// `out = hold`
-    pub(super) fn held(&mut self, name: Name, word: Name) -> Preset {
-        let text = self.symbols.text(word.symbol);
-        if text != HOLD {
-            let message = format!("expected a number or `{HOLD}`, found `{text}`");
-            self.complain(codes::UNEXPECTED, word.span, message, "`hold` keeps what stands there");
-        }
-        Preset { name, value: None, span: word.span }
-    }
 }
-
-/// The word for "what stands there stays".
-const HOLD: &str = "hold";
 
 impl BoxName {
     /// The name of a box of the net itself.

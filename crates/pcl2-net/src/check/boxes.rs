@@ -247,18 +247,8 @@ impl Filler<'_, '_> {
         };
         let place = self.builder.net.place(self.id);
         let scalar = self.builder.net.attributes(place)[index as usize].scalar;
-        match preset.value {
-            Some(number) => {
-                if let Some(value) = self.builder.constant(number, preset.span, scalar) {
-                    values[index as usize] = value;
-                }
-            }
-            None => self.builder.complain(
-                codes::VALUE_KIND,
-                preset.span,
-                "expected a number, found `hold`",
-                "a token starts with a value",
-            ),
+        if let Some(value) = self.builder.constant(preset.value, preset.span, scalar) {
+            values[index as usize] = value;
         }
     }
 

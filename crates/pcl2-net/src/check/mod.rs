@@ -33,11 +33,10 @@ use pcl2_lang::types::{Real, Scalar, Value};
 use rustc_hash::FxHashMap;
 
 /// What can go wrong in a scan of any net, in the order of the player's statuses.
-const FAULTS: [(&str, &str); 4] = [
+const FAULTS: [(&str, &str); 3] = [
     ("lost", "a token was to be made while another waited for room: it is lost"),
     ("conflict", "two different values were written to an output in one scan: the gate of higher priority wins"),
     ("late", "a process was not complete within its supervision time"),
-    ("refused", "a token or a gate was forced without room or without tokens"),
 ];
 
 /// The nets that a net takes in: the codes of its parts.

@@ -7,7 +7,7 @@ use pcl2_lang::ast::net::{BoxKind, BoxLine, Preset, Typed};
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Item, OutputDecl, PortDecl, Tail, TypeExpr};
 use pcl2_lang::net::{
-    Attribute, BOX_OUTPUT, BoxId, Class, Drive, Kind, MAX_COUNT, Modes, NetBox, Order, PartId, Stop, Word, WordId,
+    Attribute, BOX_OUTPUT, BoxId, Class, Drive, Kind, MAX_COUNT, NetBox, Order, PartId, Word, WordId,
 };
 use pcl2_lang::source::Span;
 use pcl2_lang::types::{Scalar, Value};
@@ -23,8 +23,7 @@ pub(super) fn collect(builder: &mut Builder<'_>, outline: &Outline) {
         builder.class(*name, attributes);
     }
     placed(builder, outline);
-    builder.presets(&outline.starts, false);
-    builder.presets(&outline.stops, true);
+    builder.presets(&outline.starts);
 }
 
 /// Ports, parameters and outputs of the head.
@@ -69,22 +68,6 @@ fn commands(builder: &mut Builder<'_>, outline: &Outline) {
             }
         }
     }
-    if let Some(span) = outline.modes {
-        modes(builder, span);
-    }
-}
-
-const MODE_NAMES: [&str; 4] = ["auto", "step", "manual", "stop"];
-
-fn modes(builder: &mut Builder<'_>, span: Span) {
-    let names = MODE_NAMES.map(str::to_owned).to_vec();
-    let mode = builder.cell("mode", Tail { names, ..Tail::default() }, span);
-    let [go, fire, put, take] = ["go", "fire", "put", "take"].map(|name| {
-        let port = builder.cell(name, Tail::default(), span);
-        builder.command(port, name, span);
-        WordId(builder.net.words.len() as u32 - 1)
-    });
-    builder.net.modes = Some(Modes { mode: mode as u32, go, fire, put, take });
 }
 
 fn placed(builder: &mut Builder<'_>, outline: &Outline) {
@@ -155,8 +138,8 @@ impl Builder<'_> {
     }
 
     fn push_word(&mut self, name: &str, scalar: Scalar, initial: Value, span: Span) {
-        let (name, stop, drive) = (name.to_owned(), Stop::Hold, Drive::Written);
-        self.net.words.push(Word { name, scalar, initial, stop, drive, span });
+        let (name, drive) = (name.to_owned(), Drive::Written);
+        self.net.words.push(Word { name, scalar, initial, drive, span });
         self.written.push(None);
         self.levels.push(Vec::new());
     }
@@ -168,21 +151,6 @@ impl Builder<'_> {
         };
         let name = self.text(local.name);
         self.word(&name, local.scalar, initial.unwrap_or_else(|| zero(local.scalar)), local.name.span);
-    }
-
-    /// A port that the operator writes.
-    fn cell(&mut self, name: &str, tail: Tail, span: Span) -> usize {
-        self.declare(name, Thing::Port, span);
-        self.decl.items.push(Item::Port(Box::new(PortDecl {
-            name: name.to_owned(),
-            ty: TypeExpr::Scalar(Scalar::Int),
-            cell: true,
-            group: None,
-            default: Some(Value::Int(0)),
-            tail,
-            tracks: None,
-        })));
-        self.decl.ports().count() - 1
     }
 
     fn command(&mut self, port: usize, name: &str, span: Span) {
@@ -244,7 +212,7 @@ impl Builder<'_> {
         self.net.boxes.push(NetBox { name, kind, class, capacity, initial, presets, order, span });
     }
 
-    fn presets(&mut self, presets: &[Preset], stop: bool) {
+    fn presets(&mut self, presets: &[Preset]) {
         for preset in presets {
             let word = match self.names.get(&preset.name.symbol).map(|(thing, _)| *thing) {
                 Some(Thing::Word(word)) => word.0 as usize,
@@ -260,20 +228,8 @@ impl Builder<'_> {
                 }
             };
             let scalar = self.net.words[word].scalar;
-            let value = preset.value.map(|number| self.constant(number, preset.span, scalar));
-            match (value, stop) {
-                (Some(Some(value)), true) => self.net.words[word].stop = Stop::Value(value),
-                (Some(Some(value)), false) => self.net.words[word].initial = value,
-                (None, true) => self.net.words[word].stop = Stop::Hold,
-                (None, false) => {
-                    self.complain(
-                        codes::VALUE_KIND,
-                        preset.span,
-                        "expected a number, found `hold`",
-                        "an output starts with a value",
-                    );
-                }
-                (Some(None), _) => {}
+            if let Some(value) = self.constant(preset.value, preset.span, scalar) {
+                self.net.words[word].initial = value;
             }
         }
     }

@@ -12,9 +12,7 @@ use pcl2_lang::source::Span;
 #[derive(Default)]
 pub(super) struct Outline {
     pub(super) starts: Vec<Preset>,
-    pub(super) stops: Vec<Preset>,
     pub(super) momentary: Vec<Name>,
-    pub(super) modes: Option<Span>,
     pub(super) locals: Vec<Typed>,
     pub(super) classes: Vec<(Name, Vec<Typed>)>,
     pub(super) boxes: Vec<BoxLines>,
@@ -92,9 +90,7 @@ impl Outline {
     fn take(&mut self, builder: &mut Builder<'_>, line: NetLine, current: Current) -> Current {
         match line {
             NetLine::Start(presets) => self.starts.extend(presets),
-            NetLine::Stop(presets) => self.stops.extend(presets),
             NetLine::Momentary(names) => self.momentary.extend(names),
-            NetLine::Modes(span) => self.modes = Some(span),
             NetLine::Local(locals) => self.locals.extend(locals),
             NetLine::Class(name, attributes) => self.classes.push((name, attributes)),
             NetLine::Active(active) => self.actives.push(active),
