@@ -29,6 +29,9 @@ pub(crate) enum Command {
     Params(crate::params::ParamsArgs),
     /// Draw the block diagram of a program
     Graph(GraphArgs),
+    /// Analyse Petri nets
+    #[command(subcommand)]
+    Net(crate::net::NetCommand),
     /// List the function codes, or describe one
     Blocks(BlocksArgs),
     /// Explain a diagnostic

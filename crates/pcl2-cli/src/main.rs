@@ -10,6 +10,7 @@ mod explain;
 mod fmt;
 mod graph;
 mod io;
+mod net;
 mod nets;
 mod new;
 mod outcome;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Params(args) => params::params(&args),
         Command::Graph(args) => graph::graph(&args),
+        Command::Net(command) => net::net(&command),
         Command::Blocks(args) => blocks::blocks(&args),
         Command::Explain(args) => explain::explain(&args),
     };

@@ -4,7 +4,9 @@
 //! and when they run as [`pcl2_lang::net::Net`]. Nothing here touches files, clocks or the terminal.
 
 mod check;
+pub mod pnml;
 pub mod pt;
+pub mod space;
 pub mod structure;
 
 pub use check::{compile, wanted};

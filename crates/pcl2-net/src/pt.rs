@@ -1,5 +1,8 @@
 //! A place/transition net: what the analysis works on, wherever the net was written.
 
+/// The largest number of tokens and the largest weight that is counted with.
+pub const MOST: u64 = (1 << 62) - 1;
+
 /// A net with weights, capacities, read and inhibitor arcs. Its transitions stand in the order in which a scan tries
 /// them: by priority, then by declaration.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

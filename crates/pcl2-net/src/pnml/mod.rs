@@ -1,0 +1,8 @@
+//! PNML, the interchange format of ISO/IEC 15909-2, of place/transition nets.
+
+mod bounds;
+mod error;
+mod read;
+
+pub use error::PnmlError;
+pub use read::read;
