@@ -33,7 +33,7 @@ pub(super) fn list(expected: &[String]) -> String {
     words.dedup();
     let names_number = words.contains(&"a name") && words.contains(&"a number");
     if names_number {
-        words.retain(|word| !matches!(*word, "`+`" | "`-`" | "a string" | "`_`"));
+        words.retain(|word| !matches!(*word, "`+`" | "`-`" | "`NOT`" | "a string" | "`_`"));
     }
     if words.contains(&"`*`") {
         words.retain(|word| !is_operator(word));
@@ -50,7 +50,7 @@ pub(super) fn list(expected: &[String]) -> String {
 }
 
 fn is_operator(word: &str) -> bool {
-    matches!(word, "`+`" | "`-`" | "`*`" | "`/`" | "`<`" | "`<=`" | "`>`" | "`>=`" | "`==`" | "`<>`")
+    matches!(word, "`+`" | "`-`" | "`*`" | "`/`" | "`<`" | "`<=`" | "`>`" | "`>=`" | "`==`" | "`<>`" | "`AND`" | "`OR`")
 }
 
 fn readable(token: &str) -> &str {
@@ -81,6 +81,10 @@ fn readable(token: &str) -> &str {
         "*" => "`*`",
         "/" => "`/`",
         "_" => "`_`",
+        "AND" => "`AND`",
+        "OR" => "`OR`",
+        "NOT" => "`NOT`",
+        "->" => "`->`",
         "INITIALIZE" | "PLANT" | "CONTROL" | "END" => "a section word",
         "int" | "real" | "ivec" | "vec" | "imat" | "mat" | "text" | "time" | "inout" => "a type",
         _ => "a clause word",

@@ -41,6 +41,7 @@ struct Reader<'b, 'a> {
 impl Reader<'_, '_> {
     fn gate(&mut self, lines: GateLines) -> Option<Gate> {
         let GateLines { line, rules } = lines;
+        let told = super::mistakes(self.builder.diagnostics);
         let (before, after) = (self.arcs(&line.before), self.arcs(&line.after));
         let name = self.builder.text(line.name.name);
         let mut gate = Gate {
@@ -72,7 +73,23 @@ impl Reader<'_, '_> {
             let rule = self.rule(&gate, rule);
             gate.rules.push(rule);
         }
+        if super::mistakes(self.builder.diagnostics) == told {
+            self.unfilled(&gate);
+        }
         Some(gate)
+    }
+
+    /// A box after the gate that no THEN fills would never get a token.
+    fn unfilled(&mut self, gate: &Gate) {
+        for (i, arc) in gate.after.iter().enumerate() {
+            let filled = |rule: &Rule| rule.moves.iter().any(|way| way.to.contains(&(i as u32)));
+            if !gate.rules.iter().any(filled) {
+                let name = self.builder.net.place(arc.place).name.clone();
+                let message = format!("expected a THEN with a token for `{name}`, found none");
+                let help = format!("let a token go there, or make one: `THEN NEW -> {name}`");
+                self.builder.complain(codes::ROUTE, gate.span, message, &help);
+            }
+        }
     }
 
     fn clause(&mut self, gate: &mut Gate, clause: GateClause, seen: &mut Vec<&'static str>) {
@@ -319,7 +336,7 @@ impl Reader<'_, '_> {
             }
             moves.push(Move { from, to });
         }
-        self.missing(gate, &used, &filled, span);
+        self.missing(gate, &used, span);
         moves
     }
 
@@ -340,7 +357,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn missing(&mut self, gate: &Gate, used: &[bool], filled: &[bool], span: Span) {
+    fn missing(&mut self, gate: &Gate, used: &[bool], span: Span) {
         for (arc, used) in gate.before.iter().zip(used) {
             if !used {
                 let name = self.builder.net.place(arc.place).name.clone();
@@ -352,10 +369,6 @@ impl Reader<'_, '_> {
                     &format!("say where its token goes: `THEN {name} -> nothing`"),
                 );
             }
-        }
-        for (arc, filled) in gate.after.iter().zip(filled) {
-            // Another rule may fill it; a rule that leaves it out puts nothing there.
-            let _ = (arc, filled);
         }
     }
 
