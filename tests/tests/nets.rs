@@ -1,10 +1,12 @@
 //! Nets as the player runs them: the papers' examples, what a scan promises, and random nets against a step of their own.
 
+use pcl2_tests::compilers::{CORTEX_M, STRICT, check, folder};
 use pcl2_tests::{pcl2, root, run};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// The values of each column of a trace.
 type Trace = BTreeMap<String, Vec<f64>>;
@@ -445,6 +447,25 @@ fn nets_with_mistakes_are_refused() {
         let shown = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{text}\n{shown}");
         assert!(shown.contains(code), "{code} for\n{text}\nfound\n{shown}");
+    }
+}
+
+/// The player compiles without a word, in both widths, on the host and for a microcontroller.
+#[test]
+fn compilers_have_nothing_to_say_about_the_player() {
+    let runtime = root().join("runtime-c");
+    for (real, bits, literal) in [("double", 64, "x"), ("float", 32, "x##f")] {
+        let work = folder();
+        let config = format!("typedef {real} pcl2_real;\n#define PCL2_REAL_BITS {bits}\n#define PCL2_R(x) {literal}\n");
+        fs::write(work.path().join("pcl2_config.h"), config).unwrap();
+        for (compiler, more) in [("gcc", &["-O2"][..]), ("clang", &["-O2"]), ("arm-none-eabi-gcc", &CORTEX_M)] {
+            let mut command = Command::new(compiler);
+            command.args(STRICT).args(more).arg("-c").arg(runtime.join("src/net/net.c"));
+            for include in [work.path(), &runtime.join("include"), &runtime.join("src/net")] {
+                command.arg("-I").arg(include);
+            }
+            check(command.arg("-o").arg(work.path().join("net.o")));
+        }
     }
 }
 
