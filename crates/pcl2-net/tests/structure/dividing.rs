@@ -1,12 +1,12 @@
 //! Division into main loop and sub-nets.
 
 use crate::nets::{net, place_names, tank, transition_names};
-use pcl2_net::pt::{Arc, PlaceId, PtNet};
+use pcl2_net::pt::{Arc, PlaceId, PtNet, TransitionId};
 use pcl2_net::structure::divide::{Division, SubNet, divide};
 use pcl2_net::structure::matrix::{Matrix, MatrixKind};
 use pcl2_net::structure::part::{ArcKind, Part};
 use pcl2_net::structure::step::maximal_step;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 const STEPS: [&str; 7] = ["S0", "S1", "S2", "S3", "S4", "S5", "S6"];
 
@@ -21,7 +21,7 @@ fn shown(sub_net: &SubNet) -> String {
     let net = &sub_net.part.net;
     let all = |count: usize| 0..count as u32;
     let places = place_names(net, all(net.places.len()).map(PlaceId));
-    let transitions = transition_names(net, all(net.transitions.len()).map(pcl2_net::pt::TransitionId));
+    let transitions = transition_names(net, all(net.transitions.len()).map(TransitionId));
     let starts = transition_names(net, sub_net.starts.iter().copied());
     let ends = place_names(net, sub_net.ends.iter().map(|(arc, _)| arc.place));
     format!("{}: {places} / {transitions} / {starts} / {ends}", net.name)
@@ -188,7 +188,7 @@ fn devices_that_lead_to_no_exit_and_waits_for_nothing_are_placed_and_told() {
         "step `B`: its exit `back` waits for no place of its sub-net `Su2`",
     ];
     assert_eq!(division.notes, notes);
-    let gates: std::collections::BTreeSet<u32> = main.transitions.iter().map(|transition| transition.gate).collect();
+    let gates: BTreeSet<u32> = main.transitions.iter().map(|transition| transition.gate).collect();
     assert_eq!(gates.len(), main.transitions.len());
 }
 
