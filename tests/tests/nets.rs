@@ -291,6 +291,9 @@ END
     let trace = traced(&[("bad.net", net)], "k,x\n0,nan\n2,1.\n", &["--steps", "4"]);
     assert_eq!(column(&trace, "q"), [0., 0., 1., 1.]);
     assert_eq!(column(&trace, "r"), [0.; 4]);
+    let net = "= way ( real u : )\nSTATE a MARKED\nSTATE b\nGATE g : a -> b IF u/0. > 1. OR 1\nEND\n";
+    let trace = traced(&[("way.net", net)], "", &["--steps", "2"]);
+    assert_eq!(column(&trace, "way.b"), [0.; 2]);
 }
 
 /// A macro is emptied from any step; its token goes to the box that is named, and what ABORT does is done.
@@ -438,6 +441,11 @@ fn nets_with_mistakes_are_refused() {
         ("STATE a MARKED\n", "P0006"),
         ("OPERATION o DO nobody ( x : )\nEND\n", "P0101"),
         ("GATE g : a ->\nTHEN\nEND\n", "P0002"),
+        ("END\n", "P0408"),
+        ("STATE a\nSTATE b MARKED\nSTATE c\nGATE g : b -> a, c\nTHEN b -> a\nEND\n", "P0403"),
+        ("STATE a\nFOR i = 1 TO 2000000000\nNEXT\nEND\n", "P0208"),
+        ("STATE a\nFOR i = 1 TO 2000000000\nFOR j = 1 TO 2000000000\nNEXT\nNEXT\nEND\n", "P0208"),
+        ("CLASS c ( int n )\nFOR i = 1 TO 1000\nCAPACITY a[i] OF c SIZE 65535\nNEXT\nEND\n", "P0208"),
     ];
     for (text, code) in cases {
         let folder = tempfile::tempdir().unwrap();

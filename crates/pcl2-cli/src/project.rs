@@ -116,7 +116,11 @@ pub(crate) fn load_draft(path: &Path, common: &CommonArgs, renumber: bool) -> Dr
     let mut loader = Loader::default();
     let place = loader.place(path);
     let mut edits = Vec::new();
-    if let Some(file) = place.source {
+    if let (Some(file), true) = (place.source, place.path.as_deref().is_some_and(nets::is_net)) {
+        let message = "expected a .cfg file to lay out, found a net";
+        let report = Diagnostic::new(codes::UNREADABLE, start_of(file), message);
+        loader.diagnostics.push(report.help("nets keep the layout that they have"));
+    } else if let Some(file) = place.source {
         let tree = syntax::parse(&loader.sources, file, &mut loader.symbols, &mut loader.diagnostics);
         if renumber && !loader.diagnostics.iter().any(Diagnostic::is_error) {
             edits = loader.renumber(file, &tree, &place, common);

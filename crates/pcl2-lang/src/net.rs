@@ -393,6 +393,13 @@ impl Net {
         signals
     }
 
+    /// How many attributes all tokens have that its boxes can hold, and one more of each box for a new one.
+    pub fn attribute_places(&self) -> u64 {
+        let places =
+            |place: &NetBox| (u64::from(place.capacity.unwrap_or(0)) + 1) * self.attributes(place).len() as u64;
+        self.boxes.iter().map(places).sum()
+    }
+
     /// The statements that are conditions.
     pub fn conditions(&self) -> Vec<StatementId> {
         let mut found = Vec::new();

@@ -6,6 +6,7 @@
 
 use crate::decl::{Decl, Step, TypeExpr};
 use crate::kernel;
+use crate::net::Net;
 use crate::program::{Block, Param, Program, SectionKind, SignalId, Source, Unit};
 use crate::types::{Scalar, Type, Value};
 use std::fmt;
@@ -134,6 +135,7 @@ fn verify_block(program: &Program, unit: &Unit, index: usize, block: &Block) -> 
     }
     require(decl.image.is_some() == block.image.is_some(), || "its image word is missing".to_owned())?;
     verify_ports(unit, block, decl)?;
+    verify_own(program, unit, block)?;
     verify_params(program, unit, block, decl)?;
     verify_outputs(unit, block, decl)
 }
@@ -152,6 +154,19 @@ fn verify_ports(unit: &Unit, block: &Block, decl: &Decl) -> Check {
         }
     }
     require(sources.next().is_none(), || "a port too many".to_owned())
+}
+
+/// Own parameters on wires are scalars of the composite around.
+fn verify_own(program: &Program, unit: &Unit, block: &Block) -> Check {
+    let outer = unit.composite.as_ref().and_then(|(id, _)| program.decls.get(id.0 as usize));
+    let known = |source: &Source| match source {
+        Source::Own(own, scalar) => {
+            let param = outer.and_then(|outer| outer.params.get(*own as usize));
+            param.is_some_and(|param| param.ty == TypeExpr::Scalar(*scalar))
+        }
+        Source::Signal(_) | Source::Copied(_) | Source::Element(..) | Source::Constant(_) | Source::Cell(_) => true,
+    };
+    require(block.ports.iter().all(known), || "a port refers to no parameter".to_owned())
 }
 
 fn verify_params(program: &Program, unit: &Unit, block: &Block, decl: &Decl) -> Check {
@@ -246,7 +261,8 @@ pub fn bytes(program: &Program) -> Option<u64> {
     let mut units: Vec<u64> = vec![0; program.units.len()];
     for u in (0..program.units.len()).rev() {
         let unit = &program.units[u];
-        let mut total: u64 = 0;
+        let net = unit.composite.as_ref().and_then(|(decl, _)| program.decls.get(decl.0 as usize)?.net.as_deref());
+        let mut total: u64 = net.map_or(0, net_bytes);
         for block in &unit.blocks {
             let inner = block.unit.and_then(|inner| units.get(inner.0 as usize).copied()).unwrap_or(0);
             total = total.checked_add(inner)?.checked_add(block_bytes(program, block)?)?;
@@ -254,6 +270,11 @@ pub fn bytes(program: &Program) -> Option<u64> {
         units[u] = total;
     }
     units.first().copied()
+}
+
+/// The bytes of what a net keeps: attributes, and of each box its tokens, its state and its time.
+fn net_bytes(net: &Net) -> u64 {
+    8 * (net.attribute_places() + 8 * net.boxes.len() as u64 + 2 * net.words.len() as u64)
 }
 
 fn block_bytes(program: &Program, block: &Block) -> Option<u64> {

@@ -10,6 +10,10 @@
 //!   `build.rs` and the wiring both go by `kernel::args` of one declaration, and the length of each slot by its sizes.
 //!   The kernels stay inside the ranges that their declaration gives, as any C of the runtime does.
 //! * The tables of kernels are constants of this binary, written by `build.rs` from the same declarations.
+//! * The player of nets walks a table that `pcl2_lang::net::table` makes of a checked net, over arrays of the lengths that
+//!   `engine/net.rs` takes for it. It runs inside [`Bound::run`] too, and calls back into [`act`] and [`duration`] with
+//!   the host that it was given: these reach the storage through pointers alone. Hosts stand in boxes of their own until
+//!   [`Bound`] is dropped, and so do the tapes that they point to.
 #![allow(unsafe_code)]
 
 use crate::health::{FaultAt, Health};

@@ -79,6 +79,8 @@ pub struct Context<'a> {
     too_deep: bool,
     /// The counters of the FOR lines around the line, and their values.
     counters: Vec<(Symbol, i32)>,
+    /// How often the lines of FOR were read.
+    turns: usize,
 }
 
 /// Parses a `.cfg` file.
@@ -251,6 +253,7 @@ impl<'a> Context<'a> {
             depths: Vec::new(),
             too_deep: false,
             counters: Vec::new(),
+            turns: 0,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Context, Lines, cfg};
 use crate::ast::Name;
-use crate::ast::net::{BoxName, NetLine};
+use crate::ast::net::NetLine;
 use crate::codes;
 use crate::diagnostic::{self, Diagnostic};
 use crate::lexer::{Key, Lexeme, Token};
@@ -70,6 +70,11 @@ fn block(context: &mut Context<'_>, rows: &[Vec<Lexeme>], parsed: &mut Vec<NetLi
             None => {}
         }
         if parsed.len() > MAX_LINES {
+            let place = row.first().map_or(0, |lexeme| lexeme.start);
+            let place = context.span(place, row.last().map_or(place, |lexeme| lexeme.end));
+            context.too_many(place);
+        }
+        if context.turns > MAX_LINES {
             return;
         }
     }
@@ -113,9 +118,9 @@ fn repeat(
         block(context, rows, parsed);
         context.counters.pop();
         let after = context.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count();
-        if parsed.len() > MAX_LINES {
-            let message = format!("expected at most {MAX_LINES} lines, found more by FOR");
-            context.complain(codes::TOO_LARGE, name.span, message, "repeat less often");
+        context.turns += 1;
+        if context.turns >= MAX_LINES {
+            context.too_many(name.span);
             return;
         }
         // The next turn would say the same again.
@@ -139,6 +144,16 @@ fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> Option<NetLine> {
 impl Context<'_> {
     fn complain(&mut self, code: codes::Code, span: Span, message: impl Into<String>, help: &str) {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+    }
+
+    /// There are too many lines, or turns of FOR: no more is read.
+    fn too_many(&mut self, place: Span) {
+        if self.turns <= MAX_LINES {
+            let message =
+                format!("expected at most {MAX_LINES} lines in a net, those of FOR counted in each turn, found more");
+            self.complain(codes::TOO_LARGE, place, message, "divide the net, or repeat less often");
+            self.turns = MAX_LINES + 1;
+        }
     }
 
     /// The value of a FOR counter, and something more.
@@ -167,12 +182,5 @@ impl Context<'_> {
             [index] => self.indexed(name, *index, start, end),
             _ => name,
         }
-    }
-}
-
-impl BoxName {
-    /// The name of a box of the net itself.
-    pub fn own(name: Name) -> BoxName {
-        BoxName { part: None, name }
     }
 }

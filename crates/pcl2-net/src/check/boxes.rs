@@ -8,7 +8,7 @@ use pcl2_lang::codes;
 use pcl2_lang::net::{BoxId, CAUSE, ClassId, Generation, Kind, Level, MAX_COUNT, Order, Process, READY};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
-use pcl2_lang::types::Value;
+use pcl2_lang::types::{MAX_ELEMENTS, Value};
 
 /// Completes the boxes.
 pub(super) fn boxes(builder: &mut Builder<'_>, outline: &mut Outline) {
@@ -29,6 +29,25 @@ pub(super) fn boxes(builder: &mut Builder<'_>, outline: &mut Outline) {
             Placed::Part(index) if outline.parts[index].is_macro => id += 1,
             Placed::Part(_) => {}
         }
+    }
+    whole(builder);
+}
+
+/// A net has boxes, and their tokens fit into memory.
+fn whole(builder: &mut Builder<'_>) {
+    let span = builder.decl.span;
+    if builder.net.boxes.is_empty() {
+        builder.complain(
+            codes::NET_LINE,
+            span,
+            "expected boxes in the net, found none",
+            "a net has a box at least: `STATE idle MARKED`",
+        );
+    }
+    let found = builder.net.attribute_places();
+    if found > MAX_ELEMENTS {
+        let message = format!("expected at most {MAX_ELEMENTS} attributes of all tokens of a net, found {found}");
+        builder.complain(codes::TOO_LARGE, span, message, "let boxes hold fewer tokens, or tokens fewer attributes");
     }
 }
 

@@ -201,7 +201,7 @@ impl Builder<'_> {
 
     fn place(&mut self, name: Name, kind: Kind, span: Span) {
         let id = BoxId(self.net.boxes.len() as u32);
-        if self.net.boxes.len() == MAX_COUNT {
+        if id.0 as usize == MAX_COUNT {
             let message = format!("expected at most {MAX_COUNT} boxes in a net, found more");
             self.complain(codes::TOO_LARGE, span, message, "divide the net");
         }

@@ -51,7 +51,7 @@ fn run(release: usize) -> Vec<String> {
 }
 
 /// The run without the button's release: it may come in any scan but the first.
-const SCANS: [&str; 16] = [
+pub(crate) const SCANS: [&str; 16] = [
     "tp11",
     "t0",
     "tL1 tv10",

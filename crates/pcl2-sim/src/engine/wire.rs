@@ -45,6 +45,8 @@ pub(crate) struct Wiring<'a, 'b> {
     sizes: FxHashMap<i32, usize>,
     periods: FxHashMap<i64, usize>,
     entries: &'static [(Entry, Tape)],
+    /// The reals that the latest block computed on its way, if it is an expression.
+    inner_reals: Vec<usize>,
 }
 
 const ALL: &[(Entry, Tape)] =
@@ -132,7 +134,19 @@ impl<'a, 'b> Wiring<'a, 'b> {
         let work = store.take(largest_work(store))?;
         let shared = Shared { verdict, left, work };
         let (plan, sizes, periods) = (Plan::default(), FxHashMap::default(), FxHashMap::default());
-        Ok(Wiring { store, program, plan, shared, cells, cells_by_block, images, sizes, periods, entries })
+        Ok(Wiring {
+            store,
+            program,
+            plan,
+            shared,
+            cells,
+            cells_by_block,
+            images,
+            sizes,
+            periods,
+            entries,
+            inner_reals: Vec::new(),
+        })
     }
 
     fn finish(self, ranges: Vec<Ranges>, checks: Checks) -> Wired {
@@ -268,11 +282,11 @@ impl<'a, 'b> Wiring<'a, 'b> {
         first..scripts.len()
     }
 
-    /// Where the reals are that a statement reads.
+    /// Where the reals are that a statement reads, and those that it computes on its way.
     fn reals(&self, unit: &Unit, id: BlockId, context: &Context) -> Vec<usize> {
         let places = unit.block(id).ports.iter().map(|source| self.wired(unit, source, context));
         let real = |(at, ty): &(usize, Type)| ty.scalar == Scalar::Real && ty.is_scalar() && *at != NOWHERE;
-        places.filter(real).map(|(at, _)| at).collect()
+        places.filter(real).map(|(at, _)| at).chain(self.inner_reals.iter().copied()).collect()
     }
 
     fn composite(
@@ -359,6 +373,7 @@ impl<'a, 'b> Wiring<'a, 'b> {
         checks: &mut Checks,
     ) -> Result<(), Unsupported> {
         let decl = self.program.decl(block.decl);
+        self.inner_reals.clear();
         if let Some(formula) = &decl.formula {
             return self.expression(unit, block, decl, node, formula, context);
         }
@@ -467,6 +482,9 @@ impl<'a, 'b> Wiring<'a, 'b> {
         slots.push(result);
         if let Some(function) = self.store.kernels[code.0 as usize].and_then(|kernel| kernel.function(Entry::Step)) {
             self.call(Tape::Step, function, slots);
+        }
+        if ty.scalar == Scalar::Real {
+            self.inner_reals.push(result.at);
         }
         Ok((result, ty.scalar == Scalar::Real))
     }
