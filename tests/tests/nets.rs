@@ -252,6 +252,25 @@ END
     assert_eq!(column(&trace, "lamp"), [0., 0., 1., 1., 0., 0., 0., 0.]);
 }
 
+/// A net may be made of other nets alone.
+#[test]
+fn a_net_of_modules_has_no_boxes_of_its_own() {
+    let outer = "int q = twice ( int b : )
+LOCAL int first
+MODULE one : first = once ( b : )
+MODULE two : q = once ( first : )
+END
+";
+    let inner = "int on = once ( int b : )
+STATE off MARKED
+STATE up DRIVES on
+GATE g : off -> up IF b
+END
+";
+    let trace = traced(&[("twice.net", outer), ("once.net", inner)], "k,b\n0,0\n1,1\n", &["--steps", "4"]);
+    assert_eq!(column(&trace, "q"), [0., 0., 1., 1.]);
+}
+
 /// A net is a function code: two instances in a configuration, and its boxes on wires.
 #[test]
 fn a_configuration_calls_nets() {

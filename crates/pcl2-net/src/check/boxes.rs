@@ -30,13 +30,13 @@ pub(super) fn boxes(builder: &mut Builder<'_>, outline: &mut Outline) {
             Placed::Part(_) => {}
         }
     }
-    whole(builder);
+    whole(builder, outline.parts.is_empty());
 }
 
-/// A net has boxes, and their tokens fit into memory.
-fn whole(builder: &mut Builder<'_>) {
+/// A net has boxes or nets inside, and the tokens fit into memory.
+fn whole(builder: &mut Builder<'_>, without_parts: bool) {
     let span = builder.decl.span;
-    if builder.net.boxes.is_empty() {
+    if builder.net.boxes.is_empty() && without_parts {
         builder.complain(
             codes::NET_LINE,
             span,

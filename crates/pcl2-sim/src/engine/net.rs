@@ -49,6 +49,8 @@ impl<'a> Store<'a> {
 
     fn arrays(&mut self, net: &Net, table: &Table, tokens: usize) -> Result<Vec<Slot>, Unsupported> {
         let (boxes, words, actives) = (net.boxes.len() * 4, net.words.len() * 4, net.actives.len());
+        // A net of parts alone has no boxes of its own.
+        let tokens = if boxes == 0 { self.take(8)? } else { tokens };
         let mut arrays = vec![Slot { at: tokens, bytes: boxes }];
         let real = width_of(Scalar::Real, self.program.width);
         let sizes =
