@@ -11,11 +11,25 @@ use std::process::Command;
 /// The values of each column of a trace.
 type Trace = BTreeMap<String, Vec<f64>>;
 
-/// Runs a program and reads its trace.
+/// Runs a program and returns the text of its trace.
+fn run_in(path: &Path, args: &[&str], engine: &[&str]) -> Vec<u8> {
+    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args).args(engine));
+    assert!(output.status.success(), "{engine:?}: {}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+/// Runs a program in the embedded engine and in each form of its C, and reads the trace that all of them give.
 fn trace(path: &Path, args: &[&str]) -> Trace {
-    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let output = run_in(path, args, &[]);
+    for form in FORMS {
+        let compiled = run_in(path, args, &["--engine", "cc", "--net-form", form]);
+        assert_eq!(String::from_utf8_lossy(&compiled), String::from_utf8_lossy(&output), "{form}");
+    }
+    read(&output)
+}
+
+fn read(text: &[u8]) -> Trace {
+    let mut reader = csv::Reader::from_reader(text);
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
     let mut trace = Trace::new();
     for row in reader.records() {
@@ -25,6 +39,9 @@ fn trace(path: &Path, args: &[&str]) -> Trace {
     }
     trace
 }
+
+/// The forms of a net in C.
+const FORMS: [&str; 1] = ["table"];
 
 /// Runs nets written here: file name and text, the first is the program.
 fn traced(files: &[(&str, &str)], stimulus: &str, args: &[&str]) -> Trace {
@@ -624,7 +641,12 @@ fn random_nets_do_what_the_definition_says() {
             let _ = writeln!(stimulus, "{k},{}", row.join(","));
         }
         let text = net.text();
-        let trace = traced(&[("plain.net", &text)], &stimulus, &["--steps", &scans.to_string()]);
+        let folder = tempfile::tempdir().unwrap();
+        let (path, values) = (folder.path().join("plain.net"), folder.path().join("stimulus.csv"));
+        fs::write(&path, &text).unwrap();
+        fs::write(&values, stimulus).unwrap();
+        let args = ["--steps", &scans.to_string(), "--stimulus", values.to_str().unwrap()];
+        let trace = read(&run_in(&path, &args, &[]));
         let mut marking = net.start.clone();
         for (scan, row) in inputs.iter().enumerate() {
             let next = net.step(&marking, row);

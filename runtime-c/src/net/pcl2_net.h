@@ -76,6 +76,12 @@ struct pcl2_net {
 /* A time in seconds as nanoseconds, for those who run statements from outside. */
 int64_t pcl2_net_nanoseconds(const pcl2_real *seconds);
 
+/* A time in whole seconds as nanoseconds; 0 for a negative one. */
+static inline int64_t pcl2_net_seconds(int32_t seconds)
+{
+    return seconds > 0 ? seconds * INT64_C(1000000000) : 0;
+}
+
 /* One scan of a net and of the n - 1 nets inside it. The inputs of the first are there already. */
 void pcl2_net_scan(struct pcl2_net *nets, int32_t n, int64_t *now, int64_t period);
 

@@ -3,8 +3,8 @@
 use super::Unsupported;
 use super::place::{Body, Fill, Node, Store, width_of};
 use crate::ffi::{Answer, NetPlan, Script, Slot};
-use pcl2_lang::net::{Net, PartId};
 use pcl2_lang::net::table::{self, Table};
+use pcl2_lang::net::{Net, PartId};
 use pcl2_lang::program::{Program, Role, SignalId, Unit};
 use pcl2_lang::types::Scalar;
 use std::ops::Range;
