@@ -12,8 +12,8 @@
 //! * The tables of kernels are constants of this binary, written by `build.rs` from the same declarations.
 //! * The player of nets walks a table that `pcl2_lang::net::table` makes of a checked net, over arrays of the lengths that
 //!   `engine/net.rs` takes for it. It runs inside [`Bound::run`] too, and calls back into [`act`] and [`duration`] with
-//!   the net that it was given: these reach the storage through pointers alone. Nets stand in one box, their hosts in
-//!   boxes of their own until [`Bound`] is dropped, and so do the tapes that they point to.
+//!   the net that it was given: these reach the storage through pointers alone. Nets, their hosts and the tapes that
+//!   these point to stay where they are until [`Bound`] is dropped.
 #![allow(unsafe_code)]
 
 use crate::health::{FaultAt, Health};
@@ -230,7 +230,7 @@ struct BareScript {
     reals: Vec<*const c_void>,
 }
 
-/// What the player's calls back find: one for each net, never moved.
+/// What the player's calls back find: one for each net.
 struct Host {
     tape: *const Bare,
     scripts: Vec<BareScript>,
@@ -365,7 +365,7 @@ pub(crate) struct Bound {
     tapes: [Vec<Bare>; TAPES],
     nets: *mut Player,
     /// What the nets point to.
-    hosts: Vec<Box<Host>>,
+    hosts: Vec<Host>,
 }
 
 impl Drop for Bound {
@@ -396,13 +396,11 @@ impl Bound {
             *bare =
                 ops.iter().map(|op| storage.bind(*op, &plan.arguments, &pointers, width)).collect::<Result<_, _>>()?;
         }
-        let mut hosts = Vec::with_capacity(plan.nets.len());
-        let mut players = Vec::with_capacity(plan.nets.len());
-        for net in &plan.nets {
-            let host = Box::new(storage.host(net, &tapes[Tape::Script as usize], width)?);
-            players.push(storage.player(net, &host)?);
-            hosts.push(host);
-        }
+        let script = &tapes[Tape::Script as usize];
+        let hosts: Vec<Host> =
+            plan.nets.iter().map(|net| storage.host(net, script, width)).collect::<Result<_, _>>()?;
+        let players = plan.nets.iter().zip(&hosts).map(|(net, host)| storage.player(net, host));
+        let players = players.collect::<Result<_, _>>()?;
         let nets = join(players, plan)?;
         Ok(Bound { words, _pointers: pointers, tapes, nets, hosts })
     }
