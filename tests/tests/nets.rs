@@ -270,6 +270,27 @@ END
 }
 
 /// A net may be made of other nets alone.
+/// What a net inside counts, and what its ACTIVE tells, reaches the words of the net around it.
+#[test]
+fn words_of_a_net_inside_come_out_however_they_are_written() {
+    let outer = "int n, int step, real t = outer ( : )\nMODULE M : n, step, t = inner ( : )\nEND\n";
+    let inner = "int n, int step, real t = inner ( : )\nACTIVE step, t OF a, b\nSTATE a MARKED\nTIME b 2.\n\
+                 GATE go : a -> b\nDO n = n + 1\nGATE back : b -> a\nEND\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], "", &["--period", "1", "--steps", "8"]);
+    assert_eq!(column(&trace, "n"), [1., 1., 1., 2., 2., 2., 3., 3.]);
+    assert_eq!(column(&trace, "step"), [2., 2., 1., 2., 2., 1., 2., 2.]);
+    assert_eq!(column(&trace, "t"), [0., 1., 0., 0., 1., 0., 0., 1.]);
+}
+
+/// A gate that puts a token into a GENERATE box makes no edge of its condition.
+#[test]
+fn a_token_put_into_a_generating_box_makes_no_edge() {
+    let net = "int dummy = pool ( int more, int back : )\nCLASS c ( int a )\nSTATE spare OF c MARKED ( a = 1 ) DRIVES dummy\n\
+               GENERATE made OF c SIZE 9 WHEN more\nGATE give : spare -> made IF back\nEND\n";
+    let trace = traced(&[("pool.net", net)], "k,more,back\n0,1,0\n2,1,1\n", &["--steps", "6"]);
+    assert_eq!(column(&trace, "pool.made"), [1., 1., 2., 2., 2., 2.]);
+}
+
 #[test]
 fn a_net_of_modules_has_no_boxes_of_its_own() {
     let outer = "int q = twice ( int b : )

@@ -6,7 +6,8 @@
  * gate    befores, afters, reads, inhibits, permits, rules; (box, weight) of each before and after;
  *         (part + 1, box, weight) of each read and inhibit; permits; then of each rule: condition + 1,
  *         n, boxes whose tokens it looks at, n, words that it clears, n, moves (before + 1, n, afters), n, statements
- * statement  n, words that it writes and that may conflict, n, boxes whose token it looks at
+ * statement  n, words that it writes and that may conflict, n, words that it counts on,
+ *         n, boxes whose token it looks at
  * class   n, of each attribute 0 an int, 1 a real
  * levels  n, of each: word, n, boxes, n, (part, output)
  * actives n, of each: word, word of the time + 1, n, boxes
@@ -198,7 +199,7 @@ static void net_keep(const struct pcl2_net *net, int32_t word, void *value, int3
 /* A word has a new value: of two different ones in a scan that of the gate with the higher priority stays. */
 static void net_written(struct pcl2_net *net, int32_t word, int32_t gate, void *before)
 {
-    if (net->wrote[word] != 0 && !net_same(net, word, before)) {
+    if (net->wrote[word] > 0 && !net_same(net, word, before)) {
         net_fault(net, PCL2_NET_CONFLICT);
         net_count(net->conflicts);
         if (gate + 1 >= net->wrote[word]) {
@@ -206,18 +207,34 @@ static void net_written(struct pcl2_net *net, int32_t word, int32_t gate, void *
             return;
         }
     }
-    if (net->wrote[word] == 0 || gate + 1 < net->wrote[word]) {
+    if (net->wrote[word] <= 0 || gate + 1 < net->wrote[word]) {
         net->wrote[word] = gate + 1;
+    }
+}
+
+/* A word has a new value that no other one conflicts with. */
+static void net_counted(const struct pcl2_net *net, int32_t word)
+{
+    if (net->wrote[word] == 0) {
+        net->wrote[word] = -1;
     }
 }
 
 #define NET_MOST_TARGETS 16
 
+/* The boxes that a statement looks at. */
+static const pcl2_net_word *net_looks(const struct pcl2_net *net, int32_t script)
+{
+    const pcl2_net_word *counts = net_record(net, PCL2_NET_SCRIPTS, script);
+    counts += counts[0] + 1;
+    return counts + counts[0] + 1;
+}
+
 /* Runs a statement for a gate. Tokens that it looks at are in hand meanwhile. */
 static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
 {
-    const pcl2_net_word *targets = net_record(net, PCL2_NET_SCRIPTS, script);
-    const pcl2_net_word *looks = targets + targets[0] + 1;
+    const pcl2_net_word *targets = net_record(net, PCL2_NET_SCRIPTS, script), *counts = targets + targets[0] + 1;
+    const pcl2_net_word *looks = net_looks(net, script);
     pcl2_real before[NET_MOST_TARGETS];
     for (int32_t i = 1; i <= looks[0]; i++) {
         const int32_t first = net->hold[looks[i]] == 0 ? net_next_token(net, looks[i], -1) : -1;
@@ -233,6 +250,9 @@ static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
     for (int32_t i = 0; i < targets[0]; i++) {
         net_written(net, targets[i + 1], gate, &before[i]);
     }
+    for (int32_t i = 1; i <= counts[0]; i++) {
+        net_counted(net, counts[i]);
+    }
     for (int32_t i = 1; i <= looks[0]; i++) {
         if (net->hold[looks[i]] > 0) {
             const pcl2_net_word *box = net_box_record(net, looks[i]);
@@ -245,8 +265,7 @@ static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
 /* Lets go of the tokens that a statement looked at. */
 static void net_release(struct pcl2_net *net, int32_t script)
 {
-    const pcl2_net_word *targets = net_record(net, PCL2_NET_SCRIPTS, script);
-    const pcl2_net_word *looks = targets + targets[0] + 1;
+    const pcl2_net_word *looks = net_looks(net, script);
     for (int32_t i = 1; i <= looks[0]; i++) {
         if (net->hold[looks[i]] > 0) {
             net->hold[looks[i]] = 0;
@@ -719,7 +738,9 @@ static void net_commit(struct pcl2_net *net)
     for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
         if (net->filled[b] != 0) {
             net->since[b] = net->now;
-            net->phase[b] = net->by[b] << 2;
+            if (net_box_record(net, b)[0] != PCL2_NET_GENERATION) {
+                net->phase[b] = net->by[b] << 2;
+            }
         }
         net->box[b] = pcl2_add_i(net->box[b], net->filled[b] - net->taken[b]);
         net->filled[b] = 0;
@@ -739,9 +760,11 @@ static void net_active_box(struct pcl2_net *net, int32_t index, const pcl2_net_w
     if (marked != net->active[index]) {
         net->active[index] = marked;
         net->active_since[index] = net->now;
+        net_counted(net, record[0]);
     }
     *(int32_t *)net_word_at(net, record[0]) = marked;
     if (record[1] != 0) {
+        net_counted(net, record[1] - 1);
         *(pcl2_real *)net_word_at(net, record[1] - 1) = pcl2_seconds(net->now - net->active_since[index]);
     }
 }

@@ -219,6 +219,8 @@ impl Builder<'_> {
         let touched = &self.net.touched[index];
         self.push([count(touched.writes.len())]);
         self.table.words.extend(touched.writes.iter().map(|word| word.0 as i32));
+        self.push([count(touched.counts.len())]);
+        self.table.words.extend(touched.counts.iter().map(|word| word.0 as i32));
         self.boxes(&touched.looks);
     }
 
