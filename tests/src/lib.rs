@@ -5,6 +5,7 @@ pub mod compilers;
 pub mod expect;
 pub mod fences;
 pub mod picture;
+pub mod random_nets;
 pub mod renamed;
 pub mod special;
 pub mod table;

@@ -140,7 +140,7 @@ pub(crate) fn tune(out: &mut String, net: &NetBody<'_, '_, '_>) {
         out.push_str("    self->net.period = T;\n");
     }
     if net.layout.keeps("restless") {
-        out.push_str("    self->net.restless = 1;\n");
+        out.push_str("    self->net.restless |= 1;\n");
     }
 }
 
