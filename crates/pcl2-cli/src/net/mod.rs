@@ -2,10 +2,13 @@
 
 mod analyze;
 
+use crate::args::CommonArgs;
 use crate::console;
+use crate::nets::is_net;
 use crate::outcome::Outcome;
-use crate::project::read_regular;
+use crate::project::{self, read_regular};
 use clap::{Args, Subcommand};
+use pcl2_net::flat::{self, Flat};
 use pcl2_net::pnml;
 use pcl2_net::pt::PtNet;
 use std::path::{Path, PathBuf};
@@ -20,7 +23,7 @@ pub(crate) enum NetCommand {
 /// `pcl2 net analyze`
 #[derive(Args, Debug)]
 pub(crate) struct AnalyzeArgs {
-    /// A .pnml file
+    /// A .net or .pnml file
     pub(crate) path: PathBuf,
     /// Print one JSON object
     #[arg(long)]
@@ -33,7 +36,7 @@ pub(crate) struct AnalyzeArgs {
 /// Runs a command.
 pub(crate) fn net(command: &NetCommand) -> Outcome {
     match command {
-        NetCommand::Analyze(args) => match load(&args.path) {
+        NetCommand::Analyze(args) => match load(&args.path, &[]) {
             Ok(net) => analyze::analyze(&net, args),
             Err(outcome) => outcome,
         },
@@ -43,16 +46,35 @@ pub(crate) fn net(command: &NetCommand) -> Outcome {
 /// The largest PNML file in bytes.
 const MAX_PNML: u64 = 64 << 20;
 
-/// Reads the net at a path.
-fn load(path: &Path) -> Result<PtNet, Outcome> {
+/// Reads the net at a path: of a .net file with all nets inside it. `blocks`: where those are looked for, too.
+pub(crate) fn load(path: &Path, blocks: &[PathBuf]) -> Result<PtNet, Outcome> {
+    if is_net(path) { load_flat(path, blocks).map(|flat| flat.net) } else { load_pnml(path) }
+}
+
+/// Reads a .net file with all nets inside it.
+pub(crate) fn load_flat(path: &Path, blocks: &[PathBuf]) -> Result<Flat, Outcome> {
+    let common = CommonArgs { blocks: blocks.to_vec(), ..CommonArgs::default() };
+    let project = project::load(path, &common)?;
+    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
+    let decl = project.catalogue.find(&project.stem).filter(|_| project.verified.is_some()).ok_or(Outcome::Errors)?;
+    flat::flat(decl, &project.catalogue, &project.symbols).map_err(|why| refuse(path, &why))
+}
+
+fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {
     let shown = path.display();
-    let refuse = |why: String| {
-        console::error(&why);
+    let bytes = read_regular(path, MAX_PNML).map_err(|why| {
+        console::error(&format!("expected a readable file, found `{shown}`: {why}"));
         Outcome::Errors
-    };
-    let bytes = read_regular(path, MAX_PNML)
-        .map_err(|why| refuse(format!("expected a readable file, found `{shown}`: {why}")))?;
-    let text =
-        String::from_utf8(bytes).map_err(|_| refuse(format!("{shown}: expected UTF-8 text, found other bytes")))?;
-    pnml::read(&text).map_err(|error| refuse(format!("{shown}:{error}")))
+    })?;
+    let text = String::from_utf8(bytes).map_err(|_| refuse(path, "expected UTF-8 text, found other bytes"))?;
+    pnml::read(&text).map_err(|error| {
+        console::error(&format!("{shown}:{error}"));
+        Outcome::Errors
+    })
+}
+
+/// Says why nothing is done with a file.
+fn refuse(path: &Path, why: &str) -> Outcome {
+    console::error(&format!("{}: {why}", path.display()));
+    Outcome::Errors
 }
