@@ -1,6 +1,11 @@
 //! `pcl2 net`: what is asked of a net before it runs.
 
 mod analyze;
+mod compose;
+mod divide;
+mod export;
+mod fire;
+mod matrix;
 
 use crate::args::CommonArgs;
 use crate::console;
@@ -18,6 +23,26 @@ use std::path::{Path, PathBuf};
 pub(crate) enum NetCommand {
     /// Report bounds, dead markings, invariants and siphons of a place/transition net
     Analyze(AnalyzeArgs),
+    /// Print the matrices of a net, of the nets inside it and of its modules
+    Matrix(matrix::MatrixArgs),
+    /// Compose the matrix of a net from those of its modules
+    Compose(compose::ComposeArgs),
+    /// Fire transitions after the state equation, and check that they are enabled
+    Fire(fire::FireArgs),
+    /// Divide a flat net by its steps into a main loop and sub-nets
+    Divide(divide::DivideArgs),
+    /// Write a net for another tool
+    Export(export::ExportArgs),
+}
+
+/// A net, and where those inside it are looked for.
+#[derive(Args, Debug)]
+pub(crate) struct NetPath {
+    /// A .net or .pnml file
+    pub(crate) path: PathBuf,
+    /// A folder with nets
+    #[arg(long, value_name = "DIR")]
+    pub(crate) blocks: Vec<PathBuf>,
 }
 
 /// `pcl2 net analyze`
@@ -40,6 +65,11 @@ pub(crate) fn net(command: &NetCommand) -> Outcome {
             Ok(net) => analyze::analyze(&net, args),
             Err(outcome) => outcome,
         },
+        NetCommand::Matrix(args) => matrix::matrix(args),
+        NetCommand::Compose(args) => compose::compose(args),
+        NetCommand::Fire(args) => fire::fire(args),
+        NetCommand::Divide(args) => divide::divide(args),
+        NetCommand::Export(args) => export::export(args),
     }
 }
 
