@@ -170,10 +170,12 @@ impl Reader<'_, '_> {
 
 fn applied(sign: &str, operands: Vec<Value>) -> Value {
     let mut operands = operands.into_iter();
-    match (sign, operands.next(), operands.next()) {
-        ("not", Some(one), None) => Value::Test(one.test().not()),
-        ("and", Some(one), Some(other)) => Value::Test(one.test().and(other.test())),
-        ("or", Some(one), Some(other)) => Value::Test(one.test().not().and(other.test().not()).not()),
+    // The words of the notation stand there in small letters.
+    let word = if sign.bytes().any(|letter| letter.is_ascii_uppercase()) { "" } else { &sign.to_ascii_uppercase() };
+    match (word, operands.next(), operands.next()) {
+        ("NOT", Some(one), None) => Value::Test(one.test().not()),
+        ("AND", Some(one), Some(other)) => Value::Test(one.test().and(other.test())),
+        ("OR", Some(one), Some(other)) => Value::Test(one.test().not().and(other.test().not()).not()),
         (_, Some(Value::Tokens(place)), Some(Value::Number(number))) => compared(sign, place, number),
         (_, Some(Value::Number(number)), Some(Value::Tokens(place))) => compared(turned(sign), place, number),
         _ => Value::Other,
