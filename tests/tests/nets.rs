@@ -53,10 +53,44 @@ fn marked(trace: &Trace, scan: usize) -> Vec<&str> {
 }
 
 fn tank() -> Trace {
+    tank_in("tank.net", "18")
+}
+
+fn tank_in(file: &str, steps: &str) -> Trace {
     let folder = tempfile::tempdir().unwrap();
     let stimulus = folder.path().join("button.csv");
     fs::write(&stimulus, "k,press,release\n0,1,0\n2,0,1\n").unwrap();
-    trace(&root().join("tests/nets/tank.net"), &["--steps", "18", "--stimulus", stimulus.to_str().unwrap()])
+    trace(&root().join("tests/nets").join(file), &["--steps", steps, "--stimulus", stimulus.to_str().unwrap()])
+}
+
+/// How often each of some places is entered, and whether it is marked at the end.
+fn entered(trace: &Trace, start: &[&str], column: impl Fn(&str) -> String, places: &[&str]) -> Vec<(usize, bool)> {
+    let one = |place: &&str| {
+        let values = self::column(trace, &column(place));
+        let before = std::iter::once(f64::from(u8::from(start.contains(place)))).chain(values.iter().copied());
+        let times = before.zip(values).filter(|(before, now)| **now > *before).count();
+        (times, values.last().is_some_and(|last| *last > 0.))
+    };
+    places.iter().map(one).collect()
+}
+
+/// The tank in a hierarchy, steps as macros and devices as modules, enters each place as often as the flat net does,
+/// from the start back to the start. A macro takes one scan more, from its entry to its exit: four of them do.
+#[test]
+fn the_hierarchical_tank_does_what_the_flat_one_does() {
+    let start = ["D10", "D21", "L1", "P0", "S0", "V10", "V20", "Z10"];
+    let steps = ["S0", "S1", "S2", "S3", "S4", "S5", "S6"];
+    let devices = ["P0", "P1", "L1", "L0", "V10", "V11", "V20", "V21", "Z10", "Z11", "Z12", "D10", "D11", "D20", "D21"];
+    let (flat, hierarchical) = (tank_in("tank.net", "16"), tank_in("tank_hierarchical.net", "20"));
+    for (places, is_step) in [(steps.as_slice(), true), (devices.as_slice(), false)] {
+        let expected = entered(&flat, &start, |place| format!("tank.{place}"), places);
+        let name = |place: &str| if is_step { format!("tank_hierarchical.{place}") } else { place.to_owned() };
+        assert_eq!(entered(&hierarchical, &start, name, places), expected);
+        let firings: usize = expected.iter().map(|(times, _)| times).sum();
+        assert_eq!(firings, if is_step { 7 } else { 16 });
+        let marked: Vec<bool> = places.iter().map(|place| start.contains(place)).collect();
+        assert_eq!(expected.iter().map(|(_, marked)| *marked).collect::<Vec<_>>(), marked);
+    }
 }
 
 /// Jeong and Yang, equations (9), (15), (16), (17): the marked places after the scans.

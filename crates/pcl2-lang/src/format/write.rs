@@ -184,7 +184,8 @@ impl Body<'_> {
     /// The lines of the statement, in the width that there is.
     pub(super) fn laid_out(&self, mut breaks: Vec<bool>, comment: Option<&Comment>) -> Vec<Row> {
         let mut rows = self.rows(&breaks, false);
-        if rows.iter().any(|row| row.text.len() > WIDTH) {
+        // Where the list begins beyond the width, breaks in it do not help.
+        if self.head.len() < WIDTH && rows.iter().any(|row| row.text.len() > WIDTH) {
             if let Some(colon) = self.around.iter().position(|around| around.colon) {
                 breaks[colon] = true;
             }
