@@ -176,7 +176,7 @@ pub(crate) enum Part {
 /// `pcl2 fmt`
 #[derive(Args, Debug)]
 pub(crate) struct FmtArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     #[arg(required = true, value_name = "PATH")]
     pub(crate) paths: Vec<PathBuf>,
     /// Number the blocks 1, 2, 3 .. in order of execution, and change what refers to numbers

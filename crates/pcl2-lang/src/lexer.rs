@@ -306,6 +306,9 @@ pub const NET_WORDS: [(&str, Key); 47] = [
     ("NOT", Key::Not),
 ];
 
+/// The reserved words of a kind of file.
+pub type ReservedWords = &'static [(&'static str, Key)];
+
 /// A token and its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lexeme {
