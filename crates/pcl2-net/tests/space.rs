@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use pcl2_net::pt::{Arc, Place, PlaceId, PtNet, Transition};
-use pcl2_net::space;
+use pcl2_net::space::{Explorer, Limit, Semantics};
 use std::collections::BTreeSet;
 
 struct Dice(u64);
@@ -84,7 +84,7 @@ fn random_nets_have_the_markings_of_a_plain_search() {
             dead += u64::from(next.is_empty());
             open.extend(next.into_iter().filter(|marking| seen.insert(marking.clone())));
         }
-        let found = space::explore(&net, usize::MAX, &mut |_| {});
+        let found = Explorer::new(&net).explore(Semantics::Interleaving, Limit::Markings(usize::MAX), &mut |_| {});
         assert!(found.complete, "net {number}");
         assert_eq!(
             (found.markings, found.edges, found.dead),
