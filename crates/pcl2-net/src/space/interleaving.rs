@@ -61,14 +61,14 @@ impl Interleaving<'_> {
         Ok(())
     }
 
-    /// The key after the enabled transition of the highest rank; of a dead marking its own.
+    /// The key after the enabled transition that is chosen; its own if none is.
     #[inline(always)]
-    pub(super) fn best<K: Words, F: Words, R: Ord>(&mut self, from: &F, key: &mut K, rank: impl Fn(u32) -> R) {
+    pub(super) fn one<K: Words, F: Words>(&mut self, from: &F, key: &mut K, choice: impl Fn(&[u32]) -> Option<u32>) {
         let words = from.words();
         self.guards.enabled(words, &mut self.blocked, &mut self.enabled);
         key.words_mut().copy_from_slice(&words[..K::length(self.layout.key)]);
-        if let Some(best) = self.enabled.iter().copied().max_by_key(|transition| rank(*transition)) {
-            self.changes.fire(best, key.words_mut());
+        if let Some(chosen) = choice(&self.enabled) {
+            self.changes.fire(chosen, key.words_mut());
         }
     }
 }

@@ -86,6 +86,14 @@ impl Found {
         }
     }
 
+    /// The initial marking.
+    pub(super) fn initial(&self) -> Vec<u64> {
+        let (mut full, mut marking) = (vec![0; self.layout.words], vec![0; self.layout.fields.len()]);
+        load::<Vec<u64>, Vec<u64>>(&self.markings, &self.layout, 1, &mut full);
+        self.layout.unpack(&full, &mut marking);
+        marking
+    }
+
     /// Makes a place's field wide enough. Whether that can be done.
     pub(super) fn widen(&mut self, place: usize, tokens: u64) -> bool {
         if bits_of(tokens) > WIDEST {
