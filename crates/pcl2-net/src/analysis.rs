@@ -7,8 +7,12 @@ use crate::structure::conflicts::{self, Conflict};
 use crate::structure::invariants::{self, Invariant};
 use crate::structure::siphons::{self, Siphon};
 
-/// The most rows that the search for invariants, and the most sets that the search for siphons, may hold.
-const MOST_ROWS: usize = 20_000;
+/// The most rows that the search for invariants may hold.
+const MOST_ROWS: usize = 2000;
+
+/// The most sets that the search for siphons may look at, and the places and transitions in all of them.
+const MOST_SETS: usize = 20_000;
+const SETS_WORK: usize = 4_000_000;
 
 /// The most pairs of transitions whose conflicts are looked at closely.
 const MOST_PAIRS: usize = 1_000_000;
@@ -55,7 +59,8 @@ pub fn analyze(net: &PtNet, semantics: Semantics, limit: Limit, progress: &mut d
     let p_invariants = invariants::p_invariants(net, MOST_ROWS);
     let known = p_invariants.as_deref().unwrap_or(&[]);
     let bounds = invariants::place_bounds(net, known);
-    let siphons = siphons::siphons_that_can_empty(net, MOST_ROWS);
+    let size = net.places.len() + net.transitions.len() + 1;
+    let siphons = siphons::siphons_that_can_empty(net, MOST_SETS.min(SETS_WORK / size));
     let explorer = Explorer::new(net);
     let cover = if bounds.iter().all(Option::is_some) { None } else { covered(net, semantics, limit) };
     let dead = deadlock(net, &explorer, semantics, siphons.as_deref(), limit);

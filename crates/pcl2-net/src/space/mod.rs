@@ -108,7 +108,8 @@ const REDUCED_WORK: usize = 20_000_000;
 pub struct Explorer {
     rules: Rules,
     initial: Vec<u64>,
-    expected: Vec<u64>,
+    /// The initial marking alone was found.
+    start: Found,
 }
 
 impl Explorer {
@@ -116,15 +117,15 @@ impl Explorer {
     pub fn new(net: &PtNet) -> Explorer {
         let rules = Rules::new(net);
         let initial: Vec<u64> = net.places.iter().map(|place| place.initial).collect();
-        let expected = game::expected(&rules, &initial);
-        Explorer { rules, initial, expected }
+        let start = Found::new(&rules, &initial, &game::expected(&rules, &initial));
+        Explorer { rules, initial, start }
     }
 
     /// Looks for a dead marking of the interleaving semantics, in at most so many markings.
     pub fn deadlock(&self, limit: usize) -> Deadlock {
         let size = self.rules.places + self.rules.list.len() + 1;
         let stop = Stop { limit: limit.min(REDUCED_WORK / size), at_dead: true };
-        let mut found = Found::new(&self.rules, &self.initial, &self.expected);
+        let mut found = self.start.clone();
         self.run(&mut found, Kind::Stubborn, &|_| stop, &mut |_| {});
         let way = found.first_dead.and_then(|number| self.way(&found, Kind::Stubborn, number));
         match way {
@@ -141,7 +142,7 @@ impl Explorer {
             Semantics::Interleaving => Kind::Interleaving,
             Semantics::Step => Kind::Steps,
         };
-        let mut found = Found::new(&self.rules, &self.initial, &self.expected);
+        let mut found = self.start.clone();
         let stop = |words| Stop { limit: limit.markings(words), at_dead: false };
         let limit = self.run(&mut found, kind, &stop, progress) as u64;
         let path = found.first_dead.and_then(|number| self.way(&found, kind, number));
