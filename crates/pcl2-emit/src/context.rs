@@ -3,6 +3,7 @@
 use crate::calls::{self, Telling};
 use crate::code::Code;
 use crate::layout::{Layout, UnitLayout};
+use crate::net::layout::NetLayout;
 use crate::shape::Shape;
 use pcl2_lang::program::{BlockId, DeclId, Program, UnitId};
 use pcl2_lang::source::Sources;
@@ -35,6 +36,16 @@ impl<'a> Context<'a> {
         let status = |block: &BlockId| calls::telling(&context, UnitId(0), *block) == Telling::Status;
         context.statuses = blocks.filter(status).map(|block| block.0).collect();
         context
+    }
+
+    /// Whether the program uses nets.
+    pub(crate) fn has_nets(&self) -> bool {
+        self.nets().next().is_some()
+    }
+
+    /// What the nets of the program keep.
+    pub(crate) fn nets(&self) -> impl Iterator<Item = &NetLayout> {
+        self.layout.units.iter().filter_map(|unit| unit.net.as_ref())
     }
 
     /// A function code.

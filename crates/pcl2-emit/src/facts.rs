@@ -68,6 +68,16 @@ pub(crate) struct Facts {
     pub(crate) scratch: Scratch,
 }
 
+impl Facts {
+    /// What a net has in any case: tokens at the start, faults, and the period if it depends on time.
+    pub(crate) fn of_net(&mut self, timed: bool) {
+        self.status = true;
+        self.inits = true;
+        self.tunes |= timed;
+        self.tune_period |= timed;
+    }
+}
+
 /// The facts of a kernel, as far as parameters go.
 pub(crate) fn of_kernel(code: &Code<'_>) -> Facts {
     let takes = |entry: Entry| {
