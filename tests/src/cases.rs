@@ -95,25 +95,13 @@ pub fn all() -> Vec<Case> {
     below("tests/cases").iter().map(|folder| Case::read(folder)).collect()
 }
 
-/// All cases, and the examples that are projects, without those of nets: there is no C of nets yet.
+/// All cases, and the examples that are projects.
 ///
 /// # Panics
 /// When one cannot be read.
 pub fn with_examples() -> Vec<Case> {
-    all().into_iter().chain(examples().into_iter().filter(|example| !example.has_nets())).collect()
-}
-
-/// The examples of nets.
-///
-/// # Panics
-/// When one cannot be read.
-pub fn examples_of_nets() -> Vec<Case> {
-    examples().into_iter().filter(Case::has_nets).collect()
-}
-
-fn examples() -> Vec<Case> {
     let examples = below("examples").into_iter().map(|folder| Case::read(&folder));
-    examples.filter(|example| example.has("pcl2.toml")).collect()
+    all().into_iter().chain(examples.filter(|example| example.has("pcl2.toml"))).collect()
 }
 
 /// The folders in a folder, in order of name.
@@ -159,11 +147,6 @@ impl Case {
         let blocks = self.folder.join("blocks");
         let has = |extension| !crate::compilers::files(&blocks, extension).is_empty();
         blocks.is_dir() && (has("c") || has("h"))
-    }
-
-    /// Whether a part of it is a net.
-    pub fn has_nets(&self) -> bool {
-        !crate::compilers::files(&self.folder, "net").is_empty()
     }
 
     /// The width that the case is about.

@@ -75,23 +75,6 @@ fn engines(case: &Case, width: Width) -> Result<(), String> {
     }
 }
 
-#[test]
-fn examples_of_nets_agree_with_the_reference() {
-    none(&of(&cases::examples_of_nets(), |case| {
-        same_findings(case, &["--strict"], &[], false)?;
-        // Own C runs in the compiled engine only, and that takes no nets yet.
-        let widths = if case.has_own_c() { &[][..] } else { &Width::ALL };
-        for width in widths {
-            let run = case.trace(case.run("embedded", *width))?;
-            let reference = fs::read_to_string(case.folder.join("trace.csv")).map_err(|error| error.to_string())?;
-            if let Some(tolerance) = case.tolerance(*width)? {
-                compare(&Table::read(&run), &Table::read(&reference), tolerance)?;
-            }
-        }
-        Ok(())
-    }));
-}
-
 /// The compiled engine under the address and undefined-behaviour sanitizers.
 #[test]
 fn traces_are_the_same_under_the_sanitizers() {

@@ -167,3 +167,146 @@ fn a_guided_vehicle_goes_the_way_of_the_figure() {
     assert_eq!(trace.values("agv.tries")[67..69], [1.0, 2.0]);
     assert_eq!(trace.values("agv.refused")[90], 1.0);
 }
+
+/// A signal of a trace, scan by scan.
+struct Signals(Table);
+
+impl Signals {
+    fn of(args: &[&str]) -> Signals {
+        Signals(run("batch_reactor", args))
+    }
+
+    fn all(&self, name: &str) -> Vec<f64> {
+        self.0.values(name)
+    }
+
+    fn at(&self, name: &str, scan: usize) -> f64 {
+        self.all(name)[scan]
+    }
+
+    /// The first scan from `from` on in which a signal is so.
+    fn first(&self, name: &str, from: usize, so: impl Fn(f64) -> bool) -> usize {
+        let found = self.all(name).iter().skip(from).position(|value| so(*value));
+        from + found.unwrap_or_else(|| panic!("{name} never becomes so"))
+    }
+
+    /// The sum of a signal over scans, the last one included.
+    fn sum(&self, name: &str, from: usize, to: usize) -> f64 {
+        self.all(name)[from..=to].iter().sum()
+    }
+
+    fn is_all(&self, name: &str, from: usize, to: usize, value: f64) -> bool {
+        self.all(name)[from..to].iter().all(|found| (found - value).abs() < 1e-9)
+    }
+}
+
+fn near(what: &str, found: f64, expected: f64, distance: f64) {
+    assert!((found - expected).abs() <= distance, "{what}: expected {expected}, found {found}");
+}
+
+/// 5 kg/s from 50 to 1000 kg take 190 s, and the minute of the hold; 10 kg/s back to 50 kg take 95 s.
+#[test]
+fn a_batch_is_filled_and_drained_in_time() {
+    let run = Signals::of(&[]);
+    assert_eq!(run.first("B", 0, |step| step == 2.0), 10);
+    assert_eq!((run.at("m", 100), run.at("m", 160)), (500.0, 500.0));
+    assert!(run.is_all("feed", 100, 160, 0.0) && run.is_all("B.holds", 100, 160, 1.0));
+    let full = run.first("B.ramps", 0, |ramps| ramps == 1.0);
+    assert_eq!(full, 10 + 190 + 60);
+    assert_eq!(run.at("m", full), 1000.0);
+    // The drain opens, 95 s of flow, the macro's exit, and idle.
+    let open = run.first("drain", full, |drain| drain == 1.0);
+    let shut = run.first("drain", open, |drain| drain == 0.0);
+    assert_eq!((shut - open, run.at("m", shut)), (95, 50.0));
+    assert_eq!((run.first("B.made", 0, |made| made == 1.0), run.at("B", shut + 1)), (shut + 1, 1.0));
+    // And after the abort.
+    assert_eq!(run.first("B", 3700, |step| step == 1.0), 3700 + 95);
+}
+
+/// With all 1000 kg in the vessel: what steam, water and reaction bring is what contents and jacket keep.
+#[test]
+fn a_batch_keeps_its_energy() {
+    let run = Signals::of(&[]);
+    let (from, to) = (261, run.first("drain", 261, |drain| drain == 1.0));
+    let change = |name: &str| run.at(name, to) - run.at(name, from - 1);
+    let steam = 8.0 * run.sum("heat", from - 1, to - 1);
+    let jacket = run.all("Tj");
+    let cool = run.all("cool");
+    let water: f64 = (from..=to).map(|k| 4.2 * 0.06 * cool[k - 1] * (5.0 - jacket[k - 1])).sum();
+    let reaction = -100.0 * change("A");
+    let kept = 4.2 * 1000.0 * change("T") + 4.2 * 200.0 * change("Tj");
+    near("kJ", steam + water + reaction, kept, 1e-6 * steam);
+    // Nearly all of it has reacted.
+    near("reacted", reaction, 0.86 * 95_000.0, 0.02 * 95_000.0);
+    // The rate after Arrhenius, 0.002/s at 80 C.
+    for scan in [300, 971, 1400, 2000] {
+        let kelvin = run.at("T", scan - 1) + 273.15;
+        let rate = 0.002 * (8000.0 * (1.0 / 353.15 - 1.0 / kelvin)).exp();
+        near("k", run.at("k", scan), rate, 1e-6 * rate);
+    }
+}
+
+/// The ramp: 0.1 K/s, whatever happens, and the steam that it takes.
+#[test]
+fn a_batch_is_heated_by_a_ramp_that_a_hold_freezes() {
+    let run = Signals::of(&[]);
+    let point = run.all("SP");
+    let ramps = |k: usize| point[k] - point[k - 1];
+    assert!((261..500).chain(620..950).all(|k| (ramps(k) - 0.1).abs() < 1e-9));
+    assert!((501..620).all(|k| ramps(k) == 0.0));
+    // While both contents and jacket follow at 0.1 K/s: 0.1 (4200 + 840) kW, less what the reaction gives, of 800 kW.
+    for scan in [460, 499] {
+        let steam = (0.1 * (4200.0 + 840.0) - 100.0 * run.at("gone", scan)) / 8.0;
+        // 3 %: the loop is still catching up.
+        near("TC", run.at("TC", scan), steam, 3.0);
+        near("K/s", (run.at("T", scan) - run.at("T", scan - 40)) / 40.0, 0.1, 0.005);
+    }
+    // From 20 C to 79 C at 0.1 K/s, and two minutes of hold.
+    let reacts = run.first("B.reacts", 0, |reacts| reacts == 1.0);
+    near("reacts", reacts as f64, 260.0 + 590.0 + 120.0, 5.0);
+    // No more than 3 K too hot, and where it should be at the end: what reacts there is what the water takes.
+    assert!(run.all("T").iter().all(|temperature| *temperature < 83.0));
+    near("T", run.at("T", 1640), 80.0, 1.0);
+    let water = 4.2 * 0.06 * run.at("cool", 1640) * (run.at("Tj", 1640) - 5.0);
+    near("kW", water, 100.0 * run.at("gone", 1640), 2.0);
+}
+
+/// The clock of the reaction stands while the batch is held, and a blind controller opens a fifth of the water.
+#[test]
+fn a_batch_is_held_when_its_sensor_breaks() {
+    let run = Signals::of(&[]);
+    let reacts = run.first("B.reacts", 0, |reacts| reacts == 1.0);
+    assert_eq!(run.first("B.reacts", reacts, |reacts| reacts == 0.0), reacts + 600 + 70);
+    // From the scan of the break until the operator's second word; the first came while the sensor was bad.
+    assert!(run.is_all("B.holds", 1200, 1270, 1.0) && run.at("B.holds", 1270) == 0.0);
+    assert!(run.is_all("TC", 1200, 1260, -20.0) && run.is_all("heat", 1200, 1260, 0.0));
+    assert!(run.is_all("cool", 1200, 1260, 20.0) && run.is_all("clock", 1200, 1270, run.at("clock", 1200)));
+    // Back without a bump: the controller goes on from where it was.
+    assert!(run.is_all("TC.actual", 1200, 1260, 0.0) && run.at("TC.actual", 1260) == 1.0);
+    // P acts on the error that there is now; the integral part begins at what makes -20 %.
+    near("TC", run.at("TC", 1260), -20.0, 1.0);
+    assert!(run.is_all("feed", 500, 620, 0.0) && run.is_all("drain", 500, 620, 0.0));
+}
+
+/// A command acts at once or not at all; an abort cools with all the water, and only a reset leads out of it.
+#[test]
+fn a_batch_is_aborted_to_a_safe_state() {
+    let run = Signals::of(&[]);
+    // The start at 1800 s came in a batch, and starts no second one; that at 3200 s came after an abort.
+    assert!(run.is_all("B", 2142, 2560, 1.0) && run.at("B", 2560) == 2.0);
+    assert_eq!(
+        (run.at("B", 3099), run.at("B", 3100), run.at("TC", 3100), run.at("cool", 3100)),
+        (2.0, 3.0, -100.0, 100.0)
+    );
+    let locked = run.first("B.locked", 3100, |locked| locked == 1.0);
+    assert!(run.at("T", locked) <= 45.0 && run.at("T", locked - 1) > 45.0);
+    assert!(run.is_all("B.locked", locked, 3700, 1.0) && run.is_all("B", locked, 3700, 4.0));
+    assert!(run.is_all("heat", 3100, 3850, 0.0) && run.is_all("feed", 3100, 3850, 0.0));
+    assert!(run.is_all("B", 3795, 3850, 1.0) && run.at("B", 3850) == 2.0);
+    assert_eq!((run.at("B.made", 4200), run.at("B.aborted", 4200)), (1.0, 1.0));
+    // 70 C in the place of 95 C: it trips by itself, in the scan in which it is too hot.
+    let trips = Signals::of(&["--set", "high.on=70.", "--set", "high.off=65."]);
+    let hot = trips.first("T", 0, |temperature| temperature >= 70.0);
+    assert_eq!(trips.first("B", 0, |step| step == 3.0), hot);
+    assert_eq!(trips.at("TC", hot), -100.0);
+}
