@@ -41,7 +41,7 @@ fn read(text: &[u8]) -> Trace {
 }
 
 /// The forms of a net in C.
-const FORMS: [&str; 1] = ["table"];
+const FORMS: [&str; 2] = ["table", "fast"];
 
 /// Runs nets written here: file name and text, the first is the program.
 fn traced(files: &[(&str, &str)], stimulus: &str, args: &[&str]) -> Trace {

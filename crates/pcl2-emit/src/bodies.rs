@@ -179,6 +179,7 @@ fn tune_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
     }
     let _ = writeln!(out, "static void {}_tune({})\n{{", body.layout.tag, args.join(", "));
     body.unused(out, &facts.tune, &text);
+    unused_instance(out, &text);
     let _ = writeln!(out, "{text}}}\n");
 }
 
@@ -306,10 +307,15 @@ fn init_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
     }
     let _ = writeln!(out, "static void {}_init({})\n{{", body.layout.tag, args.join(", "));
     body.unused(out, &facts.init, &text);
+    unused_instance(out, &text);
+    let _ = writeln!(out, "{text}}}\n");
+}
+
+/// A net without tokens at the start, or without a time, has nothing to do there.
+fn unused_instance(out: &mut String, text: &str) {
     if !text.contains("self->") {
         out.push_str("    (void)self;\n");
     }
-    let _ = writeln!(out, "{text}}}\n");
 }
 
 fn check_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {

@@ -1,5 +1,6 @@
 //! What every phase reads: the program, its codes and its layout.
 
+use crate::NetForm;
 use crate::calls::{self, Telling};
 use crate::code::Code;
 use crate::layout::{Layout, UnitLayout};
@@ -27,10 +28,10 @@ pub(crate) struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// Looks everything up.
-    pub(crate) fn new(program: &'a Program, sources: &'a Sources) -> Context<'a> {
+    pub(crate) fn new(program: &'a Program, sources: &'a Sources, form: NetForm) -> Context<'a> {
         let name = crate::names::settled_program_name(&program.name);
         let codes: Vec<Code<'a>> = program.decls.iter().map(Code::new).collect();
-        let layout = crate::layout::layout(program, &name, &codes);
+        let layout = crate::layout::layout(program, &name, &codes, form);
         let mut context = Context { program, sources, name, codes, layout, statuses: Vec::new() };
         let blocks = (0..program.main().blocks.len() as u32).map(BlockId);
         let status = |block: &BlockId| calls::telling(&context, UnitId(0), *block) == Telling::Status;
@@ -41,6 +42,13 @@ impl<'a> Context<'a> {
     /// Whether the program uses nets.
     pub(crate) fn has_nets(&self) -> bool {
         self.nets().next().is_some()
+    }
+
+    /// The headers that the forms of its nets need.
+    pub(crate) fn net_headers(&self) -> impl Iterator<Item = &'static str> {
+        let uses = |form: NetForm| self.nets().any(|net| net.form == form);
+        let step = uses(NetForm::Fast).then_some("pcl2_net_step.h");
+        step.into_iter().chain(uses(NetForm::Table).then_some("pcl2_net.h"))
     }
 
     /// What the nets of the program keep.

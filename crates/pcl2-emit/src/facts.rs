@@ -69,11 +69,12 @@ pub(crate) struct Facts {
 }
 
 impl Facts {
-    /// What a net has in any case: tokens at the start, faults, and the period if it depends on time.
+    /// What a net has in any case: tokens at the start, faults, the period if it depends on time, and a tune that wakes it
+    /// when a parameter changes.
     pub(crate) fn of_net(&mut self, timed: bool) {
         self.status = true;
         self.inits = true;
-        self.tunes |= timed;
+        self.tunes |= timed || self.hot.contains(&true);
         self.tune_period |= timed;
     }
 }

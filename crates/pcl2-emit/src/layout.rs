@@ -1,5 +1,6 @@
 //! Where everything lives: members, slots, parts, cold parameters, the border.
 
+use crate::NetForm;
 use crate::code::Code;
 use crate::facts::{self, Facts, Scratch};
 use crate::names::Namer;
@@ -158,12 +159,13 @@ const RESERVED_TAGS: &[&str] = &[
 ];
 
 /// Lays a program out.
-pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>]) -> Layout<'a> {
+pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>], form: NetForm) -> Layout<'a> {
     let mut builder = Builder::new(program, name, codes);
     builder.mark_used();
     for unit in (1..program.units.len()).rev() {
         builder.body(unit);
     }
+    nets::settle(program, &mut builder.layout.units, form);
     builder.main();
     builder.tag_shapes();
     builder.measure();

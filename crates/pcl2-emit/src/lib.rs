@@ -107,7 +107,7 @@ pub fn emit_each(
     take: &mut dyn FnMut(String, String),
 ) -> Emitted {
     let program = verified.program();
-    let cx = Context::new(program, sources);
+    let cx = Context::new(program, sources, options.net_form);
     let name = cx.name.clone();
     let mut points = points::points(&cx);
     take(format!("{name}_map.c"), map::map(&cx, &mut points));

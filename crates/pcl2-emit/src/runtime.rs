@@ -62,8 +62,8 @@ pub(crate) fn collect(cx: &Context<'_>, known: &[&Decl], user: &[(String, String
         collector.port("io.c");
     }
     collector.put("pcl2/pcl2_config.h".to_owned(), config(cx));
-    if cx.has_nets() {
-        collector.resolve("", "pcl2_net.h");
+    for header in cx.net_headers() {
+        collector.resolve("", header);
     }
     for decl in layout::used_decls(cx.program, &cx.layout) {
         let decl = cx.program.decl(decl);

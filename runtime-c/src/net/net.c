@@ -19,10 +19,6 @@
 #define NET_ORDER_LIFO 1
 #define NET_ORDER_LEAST 2
 
-#define NET_PHASE_NEW 0
-#define NET_PHASE_DONE 1 /* of a time or an action box: excited */
-#define NET_PHASE_WAITING 1
-#define NET_PHASE_READY 2
 
 static const pcl2_net_word *net_record(const struct pcl2_net *net, int32_t list, int32_t index)
 {
@@ -42,20 +38,6 @@ static void *net_word_at(const struct pcl2_net *net, int32_t word)
 static void *net_hand_at(const struct pcl2_net *net, int32_t hand)
 {
     return net->base + net->hands[hand];
-}
-
-static void net_fault(struct pcl2_net *net, int32_t status)
-{
-    if (*net->status == 0) {
-        *net->status = status;
-    }
-}
-
-static void net_count(int32_t *counter)
-{
-    if (*counter != INT32_MAX) {
-        ++*counter;
-    }
 }
 
 /* Tokens. */
@@ -199,24 +181,9 @@ static void net_keep(const struct pcl2_net *net, int32_t word, void *value, int3
 /* A word has a new value: of two different ones in a scan that of the gate with the higher priority stays. */
 static void net_written(struct pcl2_net *net, int32_t word, int32_t gate, void *before)
 {
-    if (net->wrote[word] > 0 && !net_same(net, word, before)) {
-        net_fault(net, PCL2_NET_CONFLICT);
-        net_count(net->conflicts);
-        if (gate + 1 >= net->wrote[word]) {
-            net_keep(net, word, before, 1);
-            return;
-        }
-    }
-    if (net->wrote[word] <= 0 || gate + 1 < net->wrote[word]) {
-        net->wrote[word] = gate + 1;
-    }
-}
-
-/* A word has a new value that no other one conflicts with. */
-static void net_counted(const struct pcl2_net *net, int32_t word)
-{
-    if (net->wrote[word] == 0) {
-        net->wrote[word] = -1;
+    struct pcl2_net_writes writes = {&net->wrote[word], net->status, net->conflicts};
+    if (pcl2_net_yields(&writes, gate, !net_same(net, word, before))) {
+        net_keep(net, word, before, 1);
     }
 }
 
@@ -251,7 +218,7 @@ static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
         net_written(net, targets[i + 1], gate, &before[i]);
     }
     for (int32_t i = 1; i <= counts[0]; i++) {
-        net_counted(net, counts[i]);
+        pcl2_net_counted(&net->wrote[counts[i]]);
     }
     for (int32_t i = 1; i <= looks[0]; i++) {
         if (net->hold[looks[i]] > 0) {
@@ -305,7 +272,7 @@ static void net_finish(struct pcl2_net *net, int32_t b, const pcl2_net_word *aft
     const int32_t gate = net->phase[b] >> 2;
     int32_t ready = 1;
     if (late) {
-        net_fault(net, PCL2_NET_TIMEOUT);
+        pcl2_net_fault(net->status, PCL2_NET_TIMEOUT);
     }
     if (after[0] != 0) {
         int32_t *cause = net_hand_at(net, after[after[0] + 1]), *answer = net_hand_at(net, after[after[0] + 1] + 1);
@@ -315,19 +282,19 @@ static void net_finish(struct pcl2_net *net, int32_t b, const pcl2_net_word *aft
         ready = *answer != 0;
     }
     net->since[b] = net->now;
-    net_set_phase(net, b, ready ? NET_PHASE_READY : NET_PHASE_WAITING);
+    net_set_phase(net, b, ready ? PCL2_NET_READY : PCL2_NET_RUNNING);
 }
 
 static void net_process(struct pcl2_net *net, int32_t b, const pcl2_net_word *more)
 {
     const pcl2_net_word *enter = more + 2, *after = enter + enter[0] + 1;
-    if ((net->phase[b] & 3) == NET_PHASE_NEW) {
+    if ((net->phase[b] & 3) == PCL2_NET_NEW) {
         net_run_all(net, enter, net->phase[b] >> 2);
         net->since[b] = net->now;
-        net_set_phase(net, b, NET_PHASE_WAITING);
+        net_set_phase(net, b, PCL2_NET_RUNNING);
         return;
     }
-    if ((net->phase[b] & 3) != NET_PHASE_WAITING) {
+    if ((net->phase[b] & 3) != PCL2_NET_RUNNING) {
         return;
     }
     const int32_t complete = more[0] == 0 || net_run(net, more[0] - 1, 0);
@@ -349,8 +316,8 @@ static void net_generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *b
     const int32_t now = net_run(net, more[0], 0) != 0, edge = now && (net->phase[b] & 1) == 0;
     int32_t waiting = (net->phase[b] & 2) != 0;
     if (edge && waiting) {
-        net_fault(net, PCL2_NET_LOST);
-        net_count(net->lost);
+        pcl2_net_fault(net->status, PCL2_NET_LOST);
+        pcl2_net_count(net->lost);
     }
     waiting |= edge;
     if (waiting && net->box[b] < box[2]) {
@@ -381,10 +348,10 @@ static void net_box_phase(struct pcl2_net *net)
         }
         if (box[0] == PCL2_NET_TIME) {
             const int64_t time = net->duration(net, more[0]);
-            net_set_phase(net, b, net->now - net->since[b] >= time ? NET_PHASE_DONE : NET_PHASE_NEW);
-        } else if (box[0] == PCL2_NET_ACTION && (net->phase[b] & 3) == NET_PHASE_NEW) {
+            net_set_phase(net, b, net->now - net->since[b] >= time ? PCL2_NET_DONE : PCL2_NET_NEW);
+        } else if (box[0] == PCL2_NET_ACTION && (net->phase[b] & 3) == PCL2_NET_NEW) {
             net_run_all(net, more, net->phase[b] >> 2);
-            net_set_phase(net, b, NET_PHASE_DONE);
+            net_set_phase(net, b, PCL2_NET_DONE);
         } else if (box[0] == PCL2_NET_PROCESS) {
             net_process(net, b, more);
         }
@@ -417,9 +384,9 @@ static int32_t net_excited(const struct pcl2_net *net, int32_t b)
     switch (box[0]) {
     case PCL2_NET_TIME:
     case PCL2_NET_ACTION:
-        return net->box[b] > 0 && (net->phase[b] & 3) == NET_PHASE_DONE;
+        return net->box[b] > 0 && (net->phase[b] & 3) == PCL2_NET_DONE;
     case PCL2_NET_PROCESS:
-        return net->box[b] > 0 && (net->phase[b] & 3) == NET_PHASE_READY;
+        return net->box[b] > 0 && (net->phase[b] & 3) == PCL2_NET_READY;
     case PCL2_NET_COUNT:
         return net->box[b] >= box[2];
     case PCL2_NET_MACRO: {
@@ -701,6 +668,19 @@ static void net_try_gate(struct pcl2_net *net, int32_t index)
     }
 }
 
+/* Takes all tokens of a macro's net, and of the macros in it. */
+static void net_empty(struct pcl2_net *net)
+{
+    for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
+        net->taken[b] = net->box[b];
+    }
+    for (int32_t i = 0; i < net->table[net->table[PCL2_NET_PARTS]]; i++) {
+        if (net_part_record(net, i)[3] != 0) {
+            net_empty(net_inside(net, i));
+        }
+    }
+}
+
 /* Empties a macro whose ABORT holds: the token goes to the box that is named. */
 static void net_abort_part(struct pcl2_net *net, int32_t part)
 {
@@ -714,9 +694,7 @@ static void net_abort_part(struct pcl2_net *net, int32_t part)
     if (!net_room(net, arc[0], 1)) {
         return;
     }
-    for (int32_t b = 0; b < inner->table[PCL2_NET_N_BOXES]; b++) {
-        inner->taken[b] = inner->box[b];
-    }
+    net_empty(inner);
     net_load(net, net_box_record(net, macro), 0);
     net->taken[macro] = 1;
     net_run_all(net, record + 6, 0);
@@ -760,11 +738,11 @@ static void net_active_box(struct pcl2_net *net, int32_t index, const pcl2_net_w
     if (marked != net->active[index]) {
         net->active[index] = marked;
         net->active_since[index] = net->now;
-        net_counted(net, record[0]);
+        pcl2_net_counted(&net->wrote[record[0]]);
     }
     *(int32_t *)net_word_at(net, record[0]) = marked;
     if (record[1] != 0) {
-        net_counted(net, record[1] - 1);
+        pcl2_net_counted(&net->wrote[record[1] - 1]);
         *(pcl2_real *)net_word_at(net, record[1] - 1) = pcl2_seconds(net->now - net->active_since[index]);
     }
 }

@@ -2,12 +2,7 @@
 #ifndef PCL2_NET_H
 #define PCL2_NET_H
 
-#include "pcl2.h"
-
-/* Faults of a net, the first of a scan. */
-#define PCL2_NET_LOST 1     /* a token was to be made while one was waiting for room: it is lost */
-#define PCL2_NET_CONFLICT 2 /* two different values were written in one scan: the gate of higher priority wins */
-#define PCL2_NET_TIMEOUT 3  /* a process box was not complete within its supervision time */
+#include "pcl2_net_step.h"
 
 /* The words at the start of a table: counts, and where records begin. */
 enum {
@@ -75,12 +70,6 @@ struct pcl2_net {
 
 /* A time in seconds as nanoseconds, for those who run statements from outside. */
 int64_t pcl2_net_nanoseconds(const pcl2_real *seconds);
-
-/* A time in whole seconds as nanoseconds; 0 for a negative one. */
-static inline int64_t pcl2_net_seconds(int32_t seconds)
-{
-    return seconds > 0 ? seconds * INT64_C(1000000000) : 0;
-}
 
 /* One scan of a net and of the n - 1 nets inside it. The inputs of the first are there already. */
 void pcl2_net_scan(struct pcl2_net *nets, int32_t n, int64_t *now, int64_t period);

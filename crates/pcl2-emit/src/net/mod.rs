@@ -1,16 +1,21 @@
 //! Nets as C: what an instance keeps, its statements, and the scan.
 
+pub(crate) mod facts;
+mod fast;
+mod gates;
 pub(crate) mod layout;
 mod statements;
 mod table;
+mod waits;
 
+use crate::NetForm;
 use crate::bodies::Body;
 use crate::calls;
 use crate::expr::{self, Kind, Scope};
 use crate::layout::UnitLayout;
 use crate::statics::Statics;
 use layout::NetLayout;
-use pcl2_lang::net::{Kind as BoxKind, Net};
+use pcl2_lang::net::{BoxId, Kind as BoxKind, Net, NetBox};
 use pcl2_lang::program::{Role, SignalId, UnitId};
 use pcl2_lang::types::{Scalar, Value};
 use std::fmt::Write;
@@ -51,6 +56,19 @@ impl<'b, 'c, 'a> NetBody<'b, 'c, 'a> {
         let mut text = String::new();
         expr::signal_value(&mut text, self.body.cx, scope, self.held(index), 0);
         text
+    }
+
+    /// The enumerator of a box.
+    fn place(&self, id: BoxId) -> &'c str {
+        &self.layout.boxes[id.0 as usize]
+    }
+
+    /// The members with the cause and the answer of a process box.
+    fn answers(&self, place: &NetBox) -> [String; 2] {
+        let before = self.net.boxes.iter().take_while(|other| other.name != place.name);
+        let hands = |other: &NetBox| self.net.attributes(other).len() + if other.asks() { 2 } else { 0 };
+        let first = before.map(hands).sum::<usize>() + self.net.attributes(place).len() + self.net.words.len() + 1;
+        [first, first + 1].map(|index| self.word(index, self.scope()))
     }
 
     /// The layouts and units of the nets inside, in order.
@@ -99,6 +117,9 @@ pub(crate) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let tokens = i32::try_from(place.initial).unwrap_or(i32::MAX);
         let _ = writeln!(out, "    self->box[{name}] = {tokens};");
     }
+    if net.layout.form == NetForm::Fast {
+        fast::start(out, net);
+    }
     let table = &net.layout.table;
     let ints = table.ints.iter().map(|value| (Value::Int(*value), Scalar::Int)).enumerate();
     let reals = table.reals.iter().map(|value| (Value::Real(*value), Scalar::Real)).enumerate();
@@ -118,19 +139,33 @@ pub(crate) fn tune(out: &mut String, net: &NetBody<'_, '_, '_>) {
     if net.layout.timed {
         out.push_str("    self->net.period = T;\n");
     }
+    if net.layout.keeps("restless") {
+        out.push_str("    self->net.restless = 1;\n");
+    }
 }
 
 /// Writes the functions of a net that make its scan. Its own inputs are arguments of the last of them.
 pub(crate) fn scan(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, head: &str) {
-    table::functions(out, statics, net);
+    match net.layout.form {
+        NetForm::Table => table::functions(out, statics, net),
+        NetForm::Fast => fast::functions(out, statics, net),
+    }
+    if !net.layout.called {
+        return;
+    }
     let _ = writeln!(out, "{head}{{");
-    take_arguments(out, net);
-    table::scan(out, net);
+    match net.layout.form {
+        NetForm::Table => {
+            take_arguments(out, net, INDENT);
+            table::scan(out, net);
+        }
+        NetForm::Fast => fast::scan(out, net),
+    }
     out.push_str("}\n\n");
 }
 
 /// Takes the arguments in: they stay until the next scan.
-fn take_arguments(out: &mut String, net: &NetBody<'_, '_, '_>) {
+fn take_arguments(out: &mut String, net: &NetBody<'_, '_, '_>, indent: &str) {
     for (i, signal) in net.body.unit.signals.iter().enumerate() {
         let Role::Port(port) = signal.role else {
             continue;
@@ -138,12 +173,12 @@ fn take_arguments(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let id = SignalId(i as u32);
         let to = |out: &mut String| expr::signal_base(out, net.body.cx, net.scope(), id);
         let argument = &net.body.layout.ports[port as usize].0;
-        calls::assign(out, INDENT, signal.ty, to, |out| {
+        calls::assign(out, indent, signal.ty, to, |out| {
             out.push_str(argument);
             if signal.ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) }
         });
     }
-    commands(out, net, net.scope(), INDENT);
+    commands(out, net, net.scope(), indent);
 }
 
 /// Commands go to the words that gates clear.

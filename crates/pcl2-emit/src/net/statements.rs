@@ -1,6 +1,6 @@
 //! The statements of a net: conditions and times as values, the others as what they do.
 
-use super::{NetBody, commands};
+use super::NetBody;
 use crate::args::{Call, Caller};
 use crate::bodies::Body;
 use crate::calls::{self, Telling};
@@ -10,7 +10,7 @@ use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::net::{Kind as BoxKind, StatementId};
 use pcl2_lang::program::{BlockId, Role, SignalId, Source};
-use pcl2_lang::types::Scalar;
+use pcl2_lang::types::{Scalar, Type};
 
 /// What a statement is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,8 @@ pub(super) fn uses(net: &NetBody<'_, '_, '_>) -> Vec<Use> {
     uses
 }
 
-fn call<'c, 'a>(net: &NetBody<'_, 'c, 'a>, statement: StatementId) -> Call<'c, 'a> {
+/// The call that a statement is.
+pub(super) fn call<'c, 'a>(net: &NetBody<'_, 'c, 'a>, statement: StatementId) -> Call<'c, 'a> {
     let caller = Caller::Step(Scope::of(net.body.id));
     Call::new(net.body.cx, net.body.id, BlockId(statement.0), caller, None)
 }
@@ -152,33 +153,58 @@ fn indented(out: &mut String, text: &str, indent: &str) {
     }
 }
 
-/// Writes how the inputs of a net inside are taken in.
-pub(super) fn inputs(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize, indent: &str) {
+/// What an input of a net inside takes.
+pub(super) struct Input {
+    /// Where it stands.
+    pub(super) to: String,
+    /// What it takes: a value, or of a vector a pointer.
+    pub(super) from: String,
+    /// Its type.
+    pub(super) ty: Type,
+}
+
+/// The inputs of a net inside, then its commands.
+pub(super) fn inputs_of(statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize) -> Vec<Input> {
     let call = call(net, net.net.parts[part].statement);
-    let Some(inner) = call.block().unit else {
-        return;
-    };
-    let Some(inner) = Body::new(net.body.cx, inner) else {
-        return;
+    let Some(inner) = call.block().unit.and_then(|inner| Body::new(net.body.cx, inner)) else {
+        return Vec::new();
     };
     let Some(inside) = NetBody::of(&inner) else {
-        return;
+        return Vec::new();
     };
     let root = format!("{}.", instance(net, part));
     let scope = Scope { unit: inner.id, root: &root, part: crate::layout::WHOLE };
+    let place = |signal: SignalId| {
+        let mut text = String::new();
+        expr::signal_base(&mut text, net.body.cx, scope, signal);
+        text
+    };
+    let mut inputs = Vec::new();
     for (i, signal) in inner.unit.signals.iter().enumerate() {
         let Role::Port(port) = signal.role else {
             continue;
         };
         let mut from = String::new();
         call.source(&mut from, statics, port as usize, signal.ty);
-        let to = |out: &mut String| expr::signal_base(out, net.body.cx, scope, SignalId(i as u32));
-        calls::assign(out, indent, signal.ty, to, |out| {
-            out.push_str(&from);
-            if signal.ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) }
-        });
+        inputs.push(Input { to: place(SignalId(i as u32)), from, ty: signal.ty });
     }
-    commands(out, &inside, scope, indent);
+    for (port, word) in &inside.net.momentary {
+        let to = inside.word(word.0 as usize, scope);
+        inputs.push(Input { to, from: place(SignalId(*port)), ty: Type::INT });
+    }
+    inputs
+}
+
+/// Writes how the inputs of a net inside are taken in.
+pub(super) fn inputs(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize, indent: &str) {
+    for input in inputs_of(statics, net, part) {
+        let kind = if input.ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) };
+        let write = |out: &mut String, text: &str| {
+            out.push_str(text);
+            kind
+        };
+        calls::assign(out, indent, input.ty, |out| write(out, &input.to), |out| write(out, &input.from));
+    }
 }
 
 /// The member that is the instance of a net inside.
