@@ -268,7 +268,8 @@ fn a_batch_is_heated_by_a_ramp_that_a_hold_freezes() {
     assert!(run.all("T").iter().all(|temperature| *temperature < 83.0));
     near("T", run.at("T", 1640), 80.0, 1.0);
     let water = 4.2 * 0.06 * run.at("cool", 1640) * (run.at("Tj", 1640) - 5.0);
-    let warms = (4200.0 + 840.0) * (run.at("T", 1640) - run.at("T", 1639));
+    let rise = |name: &str| run.at(name, 1640) - run.at(name, 1639);
+    let warms = 4200.0 * rise("T") + 840.0 * rise("Tj");
     near("kW", water + warms, 100.0 * run.at("gone", 1640), 0.5);
 }
 
