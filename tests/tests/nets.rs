@@ -303,6 +303,33 @@ END
     assert_eq!(column(&trace, "lamp"), [0., 0., 1., 1., 0., 0., 0., 0.]);
 }
 
+/// In a condition a macro is its box, whatever its outputs are.
+#[test]
+fn a_macro_in_a_condition_is_its_token() {
+    let outer = "int lamp, int inside = outer ( int go, int level : )
+STATE idle MARKED
+MACRO fill : lamp = filling ( level : )
+STATE out MARKED
+STATE in DRIVES inside
+GATE start : idle -> fill IF go
+GATE end : fill -> idle
+GATE g1 : out -> in IF fill
+GATE g2 : in -> out IF NOT fill
+END
+";
+    let inner = "int open = filling ( int level : )
+ENTRY begin DRIVES open
+EXIT finished
+GATE g : begin -> finished IF level
+END
+";
+    let stimulus = "k,go,level\n0,1,0\n1,0,1\n";
+    let trace = traced(&[("outer.net", outer), ("filling.net", inner)], stimulus, &["--steps", "5"]);
+    assert_eq!(column(&trace, "outer.fill"), [1., 1., 0., 0., 0.]);
+    assert_eq!(column(&trace, "lamp"), [1., 0., 0., 0., 0.]);
+    assert_eq!(column(&trace, "inside"), [0., 1., 1., 0., 0.]);
+}
+
 /// A net may be made of other nets alone.
 /// What a net inside counts, and what its ACTIVE tells, reaches the words of the net around it.
 #[test]

@@ -155,10 +155,15 @@ static void net_remove_token(struct pcl2_net *net, int32_t b, int32_t place)
     if (class != NULL) {
         net_sizes_of(class, &ints, &reals);
         const size_t behind = (size_t)(n - place - 1);
-        int32_t *first_int = net->ints + box[5] + place * ints;
-        pcl2_real *first_real = net->reals + box[6] + place * reals;
-        memmove(first_int, first_int + ints, behind * (size_t)ints * sizeof *first_int);
-        memmove(first_real, first_real + reals, behind * (size_t)reals * sizeof *first_real);
+        /* A net without attributes of a type has no array of it. */
+        if (ints > 0) {
+            int32_t *first = net->ints + box[5] + place * ints;
+            memmove(first, first + ints, behind * (size_t)ints * sizeof *first);
+        }
+        if (reals > 0) {
+            pcl2_real *first = net->reals + box[6] + place * reals;
+            memmove(first, first + reals, behind * (size_t)reals * sizeof *first);
+        }
     }
     net->taken[b] = box[0] == PCL2_NET_COUNT ? net->box[b] : net->taken[b] + 1;
 }
