@@ -10,6 +10,7 @@ use pcl2_lang::catalogue::{Catalogue, UserFile};
 use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
 use pcl2_lang::diagnostic::{self, Diagnostic};
+use pcl2_lang::net::written::{self, Written};
 use pcl2_lang::source::{FileId, Sources, Span};
 use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax;
@@ -49,6 +50,15 @@ pub(crate) struct Project {
     pub(crate) timings: Vec<(&'static str, Duration)>,
     /// Bytes of source, lines and blocks.
     pub(crate) lines: usize,
+}
+
+impl Project {
+    /// The net that is the whole program, if it is one.
+    pub(crate) fn net(&self) -> Option<Written<'_>> {
+        let (path, _) = self.source.as_ref().filter(|(path, _)| nets::is_net(path))?;
+        let stem = path.file_stem()?.to_string_lossy();
+        written::read(self.catalogue.find(&stem)?, &self.sources, &self.catalogue)
+    }
 }
 
 /// Reads and checks the program at a path.
