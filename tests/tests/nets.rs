@@ -477,6 +477,51 @@ fn nets_with_mistakes_are_refused() {
     }
 }
 
+/// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
+/// used; a help can be followed.
+#[test]
+fn a_mistake_is_told_once_at_its_place() {
+    let cases = [
+        ("int v, int q = bad ( : )\nSTATE a MARKED DRIVES v\nEND\n", "P0407", "bad.net:1:12"),
+        ("int v, real q = bad ( : )\nSTATE a MARKED DRIVES v, q\nEND\n", "P0407", "bad.net:1:13"),
+        ("int v = bad ( int v : )\nSTATE a MARKED DRIVES v\nEND\n", "P0402", "bad.net:1:5"),
+        ("ivec[2] v = bad ( : )\nSTATE a MARKED\nEND\n", "P0501", "bad.net:1:9"),
+        (
+            "int on = bad ( int b : )\nSTATE off MARKED\nSTATE on DRIVES on\nGATE g : off -> on IF b\nGATE h : on -> off\nEND\n",
+            "P0402",
+            "bad.net:3:7",
+        ),
+        ("= bad ( : )\nSTATE a MARKED 2\nEND\n", "P0404", "expected at most 1 token in `a`, found 2"),
+        ("= bad ( : )\nSTATE a MARKED\nSTATE b\nGATE g : 2*a -> b\nEND\n", "P0404", "at most 1 token from or to `a`"),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nEND\n",
+            "P0405",
+            "help: make a new one: `THEN a -> nothing`, `THEN NEW -> b`",
+        ),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE p OF c MARKED\nSTATE b OF c\nGATE g : a, p -> b\nEND\n",
+            "P0405",
+            "help: say with THEN which token goes where: `THEN p -> b`",
+        ),
+    ];
+    for (text, code, words) in cases {
+        let (status, shown) = checked(text);
+        assert_eq!(status, Some(1), "{text}\n{shown}");
+        assert_eq!(shown.matches("error[").count(), 1, "{text}\n{shown}");
+        assert!(shown.contains(code) && shown.contains(words), "{code} {words} for\n{text}\nfound\n{shown}");
+    }
+    let followed = "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nTHEN a -> nothing\nTHEN NEW -> b\nEND\n";
+    assert_eq!(checked(followed), (Some(0), String::new()));
+}
+
+/// Checks the net `bad`.
+fn checked(text: &str) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.net"), text).unwrap();
+    let output = run(pcl2().args(["check", "bad.net"]).current_dir(folder.path()));
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
 /// The player compiles without a word, in both widths, on the host and for a microcontroller.
 #[test]
 fn compilers_have_nothing_to_say_about_the_player() {

@@ -320,6 +320,9 @@ impl<'a> Wirer<'_, 'a> {
 
     /// A variable in an expression; in a composite's body also one of its constants.
     fn operand(&mut self, name: Name) -> Option<Source> {
+        if let Some(source) = self.tokens(name) {
+            return Some(source);
+        }
         if let Some(id) = self.scope.by_name.get(name.symbol) {
             return Some(Source::Signal(id));
         }
@@ -342,12 +345,15 @@ impl<'a> Wirer<'_, 'a> {
         None
     }
 
-    /// In a net: the tokens of a box, or the net's own parameter.
+    /// In a net: the tokens of a box. A macro's box has the name of the block that connects its net.
+    fn tokens(&self, name: Name) -> Option<Source> {
+        let (id, element) = self.scope.elements.get(&name.symbol)?;
+        Some(Source::Element(*id, *element))
+    }
+
+    /// In a net: its own parameter.
     fn of_net(&self, name: Name) -> Option<Source> {
         let owner = self.scope.owner.as_ref().map(|(decl, _)| *decl).filter(|decl| decl.net.is_some())?;
-        if let Some((id, element)) = self.scope.elements.get(&name.symbol) {
-            return Some(Source::Element(*id, *element));
-        }
         let text = self.input.symbols.text(name.symbol);
         let index = owner.params.iter().position(|param| param.name == text)?;
         match owner.params[index].ty {
@@ -407,6 +413,9 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn name(&mut self, port: &PortDecl, name: Name) -> Option<Source> {
+        if let Some(source) = self.tokens(name) {
+            return Some(source);
+        }
         if let Some(id) = self.scope.by_name.get(name.symbol) {
             return Some(Source::Signal(id));
         }

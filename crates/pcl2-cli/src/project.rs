@@ -40,6 +40,10 @@ pub(crate) struct Project {
     pub(crate) left_out: usize,
     /// The known function codes.
     pub(crate) catalogue: Catalogue,
+    /// All names.
+    pub(crate) symbols: Symbols,
+    /// The stem of the source's name: a net is called so.
+    pub(crate) stem: String,
     /// C files of the user's own blocks: name and text.
     pub(crate) kernels: Vec<(String, String)>,
     /// The content of pcl2.toml.
@@ -99,6 +103,8 @@ fn load_for(path: &Path, common: &CommonArgs, purpose: Use, replaced: Option<Vec
         diagnostics,
         left_out,
         catalogue,
+        symbols: loader.symbols,
+        stem: place.stem,
         kernels: loader.kernels,
         config: place.config,
         source: place.path.zip(place.source),

@@ -4,6 +4,8 @@
 //! and when they run as [`pcl2_lang::net::Net`]. Nothing here touches files, clocks or the terminal.
 
 mod check;
+pub mod export;
+pub mod flat;
 pub mod pnml;
 pub mod pt;
 pub mod space;

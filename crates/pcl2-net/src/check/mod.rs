@@ -57,10 +57,10 @@ pub fn compile(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Decl> {
     let before = mistakes(diagnostics);
-    let NetFile { decl, lines, sound } = file;
+    let NetFile { decl, head, lines, sound } = file;
     let mut builder = Builder::new(decl, sources, symbols, catalogue, diagnostics);
     let mut outline = outline::outline(&mut builder, lines);
-    names::collect(&mut builder, &outline);
+    names::collect(&mut builder, &head, &outline);
     boxes::boxes(&mut builder, &mut outline);
     parts::parts(&mut builder, &mut outline);
     gates::gates(&mut builder, &mut outline);

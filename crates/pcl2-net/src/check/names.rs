@@ -6,6 +6,7 @@ use pcl2_lang::ast::Name;
 use pcl2_lang::ast::net::{BoxKind, BoxLine, Preset, Typed};
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Item, OutputDecl, PortDecl, Tail, TypeExpr};
+use pcl2_lang::declare::net::HeadNames;
 use pcl2_lang::net::{
     Attribute, BOX_OUTPUT, BoxId, Class, Drive, Kind, MAX_COUNT, NetBox, Order, PartId, Word, WordId,
 };
@@ -13,8 +14,8 @@ use pcl2_lang::source::Span;
 use pcl2_lang::types::{Scalar, Value};
 
 /// Gives everything its place.
-pub(super) fn collect(builder: &mut Builder<'_>, outline: &Outline) {
-    head(builder);
+pub(super) fn collect(builder: &mut Builder<'_>, names: &HeadNames, outline: &Outline) {
+    head(builder, names);
     commands(builder, outline);
     for local in &outline.locals {
         builder.local(local);
@@ -27,28 +28,23 @@ pub(super) fn collect(builder: &mut Builder<'_>, outline: &Outline) {
 }
 
 /// Ports, parameters and outputs of the head.
-fn head(builder: &mut Builder<'_>) {
+fn head(builder: &mut Builder<'_>, names: &HeadNames) {
     let span = builder.decl.span;
     let ports: Vec<PortDecl> = builder.decl.ports().cloned().collect();
     if builder.decl.items.len() != ports.len() || ports.iter().any(|port| port.group.is_some()) {
         let message = "expected ports only in the head of a net, found a constant or a group";
         builder.complain(codes::BAD_DECLARATION, span, message, "a net has one size; take a vector: `ivec[5] done`");
     }
-    for port in &ports {
-        builder.declare(&port.name, Thing::Port, span);
-    }
-    let params: Vec<String> = builder.decl.params.iter().map(|param| param.name.clone()).collect();
-    for param in params {
-        builder.declare(&param, Thing::Param, span);
-    }
-    for output in builder.decl.outputs.clone() {
+    names.ports.iter().for_each(|name| builder.declare_name(*name, Thing::Port));
+    names.params.iter().for_each(|name| builder.declare_name(*name, Thing::Param));
+    for (output, name) in builder.decl.outputs.clone().into_iter().zip(&names.outputs) {
         let TypeExpr::Scalar(scalar) = output.ty else {
             let message =
                 format!("expected an int or a real as output of a net, found another type for `{}`", output.name);
-            builder.complain(codes::BAD_DECLARATION, span, message, "give each element an output of its own");
+            builder.complain(codes::BAD_DECLARATION, name.span, message, "give each element an output of its own");
             continue;
         };
-        builder.word(&output.name, scalar, zero(scalar), span);
+        builder.word(&output.name, scalar, zero(scalar), name.span);
     }
     builder.net.outputs = builder.net.words.len();
 }
@@ -123,7 +119,10 @@ impl Builder<'_> {
             Some((_, other)) => {
                 let message = format!("expected a name of its own, found `{text}` a second time");
                 let report = pcl2_lang::diagnostic::Diagnostic::new(codes::NET_NAME_TAKEN, name.span, message);
-                self.diagnostics.push(report.label(*other, "the first").help("take another name"));
+                let other = *other;
+                self.diagnostics.push(report.label(other, "the first").help("take another name"));
+                // Which of the two is meant where it is used is not known.
+                self.names.insert(name.symbol, (Thing::Spoiled, other));
             }
             None => {
                 self.names.insert(name.symbol, (thing, name.span));

@@ -22,6 +22,10 @@ fn drive(builder: &mut Builder<'_>, index: usize) {
     let levels = std::mem::take(&mut builder.levels[index]);
     let word = &builder.net.words[index];
     let (name, span) = (word.name.clone(), word.span);
+    let symbol = builder.symbols.intern(&name);
+    if builder.names.get(&symbol).is_some_and(|(thing, _)| *thing == Thing::Spoiled) {
+        return;
+    }
     match (levels.is_empty(), builder.written[index]) {
         (false, Some(place)) => {
             let message = format!("expected `{name}` driven by boxes or written by statements, found both");
