@@ -59,9 +59,8 @@ pub(crate) struct Project {
 impl Project {
     /// The net that is the whole program, if it is one.
     pub(crate) fn net(&self) -> Option<Written<'_>> {
-        let (path, _) = self.source.as_ref().filter(|(path, _)| nets::is_net(path))?;
-        let stem = path.file_stem()?.to_string_lossy();
-        written::read(self.catalogue.find(&stem)?, &self.sources, &self.catalogue)
+        self.source.as_ref().filter(|(path, _)| nets::is_net(path))?;
+        written::read(self.catalogue.find(&self.stem)?, &self.sources, &self.catalogue)
     }
 }
 

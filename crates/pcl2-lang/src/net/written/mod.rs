@@ -2,7 +2,7 @@
 
 mod words;
 
-pub use words::{scalar, weighted};
+pub use words::weighted;
 
 use super::Net;
 use crate::catalogue::Catalogue;

@@ -1,6 +1,8 @@
 //! What the lines of a net say, in the words of the language.
 
 use super::WrittenNet;
+use crate::decl::Tail;
+use crate::manual::value_text;
 use crate::net::{Abort, Arc, Attribute, Drive, Gate, Kind, Level, Move, NetBox, Order, Rule, StatementId, Tested};
 use crate::types::Value;
 
@@ -52,7 +54,9 @@ impl WrittenNet<'_> {
     }
 
     fn presets(&self, place: &NetBox) -> Option<String> {
-        let preset = |(attribute, value): (&Attribute, &Value)| format!("{} = {}", attribute.name, scalar(value));
+        let preset = |(attribute, value): (&Attribute, &Value)| {
+            format!("{} = {}", attribute.name, value_text(value, &Tail::default()))
+        };
         let presets: Vec<String> = self.net.attributes(place).iter().zip(&place.presets).map(preset).collect();
         (place.initial > 0 && !presets.is_empty()).then(|| format!("MARKED ( {} )", presets.join(", ")))
     }
@@ -137,15 +141,4 @@ impl WrittenNet<'_> {
 /// `3*name`, or the name alone.
 pub fn weighted(weight: u32, name: &str) -> String {
     if weight == 1 { name.to_owned() } else { format!("{weight}*{name}") }
-}
-
-/// A number as the language writes it.
-pub fn scalar(value: &Value) -> String {
-    match value {
-        Value::Int(value) => value.to_string(),
-        Value::Real(value) => format!("{:?}", value.wide),
-        Value::Ints(values) => values.iter().map(i32::to_string).collect::<Vec<_>>().join(", "),
-        Value::Reals(values) => values.iter().map(|value| format!("{:?}", value.wide)).collect::<Vec<_>>().join(", "),
-        Value::Text(text) => format!("\"{text}\""),
-    }
 }
