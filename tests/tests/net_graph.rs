@@ -2,7 +2,7 @@
 //! picture.
 
 use pcl2_tests::compilers::{check, folder};
-use pcl2_tests::fences::examples;
+use pcl2_tests::fences::{examples, fences};
 use pcl2_tests::net_picture::{NetPicture, net_picture};
 use pcl2_tests::picture::{Area, overlap, runs_through, touch};
 use pcl2_tests::{none, pcl2, root, run};
@@ -362,10 +362,28 @@ fn how_drawing_ends() {
     assert!(!folder.path().join("bad.svg").exists());
 }
 
-/// `docs/tank.svg` is what the README's command draws.
+/// The pictures in `docs` are what the commands of the README and of the page on nets draw.
 #[test]
-fn the_picture_in_docs_is_fresh() {
-    let drawn = check(pcl2().arg("graph").arg(root().join("tests/nets/tank.net")).args(["-o", "-"]));
-    let kept = fs::read_to_string(root().join("docs/tank.svg")).unwrap_or_default();
-    assert!(drawn == kept, "run `pcl2 graph tests/nets/tank.net -o docs/tank.svg`");
+fn the_pictures_in_docs_are_fresh() {
+    let page = fences(&fs::read_to_string(root().join("docs/nets.md")).unwrap());
+    let work = folder();
+    for fence in &page {
+        if let Some(file) = fence.file.as_ref().filter(|file| file.ends_with(".net")) {
+            fs::write(work.path().join(file), &fence.text).unwrap();
+        }
+    }
+    let tank = root().join("tests/nets/tank.net").display().to_string();
+    let chart =
+        page.iter().flat_map(|fence| fence.text.lines()).find(|line| line.ends_with("--plot chart.svg")).unwrap();
+    let commands = [
+        ("tank.svg", vec!["graph", &tank, "-o", "tank.svg"]),
+        ("plant.svg", vec!["graph", "plant.net", "-o", "plant.svg"]),
+        ("chart.svg", chart.split(' ').skip(1).collect()),
+    ];
+    for (name, args) in commands {
+        check(pcl2().current_dir(work.path()).args(args));
+        let drawn = fs::read_to_string(work.path().join(name)).unwrap();
+        let kept = fs::read_to_string(root().join("docs").join(name)).unwrap_or_default();
+        assert!(drawn == kept, "docs/{name} is stale: draw it anew with the command of the page");
+    }
 }
