@@ -6,6 +6,7 @@ pub mod expect;
 pub mod fences;
 pub mod net_picture;
 pub mod picture;
+pub mod random_nets;
 pub mod renamed;
 pub mod special;
 pub mod table;

@@ -56,6 +56,28 @@ pub(crate) struct CommonArgs {
     /// A folder with function codes of your own (.fc and .c)
     #[arg(long, value_name = "DIR")]
     pub(crate) blocks: Vec<PathBuf>,
+    /// How nets become C: fast code, or a table for small flash
+    #[arg(long, value_name = "fast|table")]
+    pub(crate) net_form: Option<Form>,
+}
+
+/// How nets become C.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Form {
+    /// Code of each gate
+    Fast,
+    /// A table that a player walks
+    Table,
+}
+
+impl Form {
+    /// As the emitter knows it.
+    pub(crate) fn net_form(self) -> pcl2_emit::NetForm {
+        match self {
+            Form::Fast => pcl2_emit::NetForm::Fast,
+            Form::Table => pcl2_emit::NetForm::Table,
+        }
+    }
 }
 
 /// The width of reals.
