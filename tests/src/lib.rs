@@ -4,6 +4,7 @@ pub mod cases;
 pub mod compilers;
 pub mod expect;
 pub mod fences;
+pub mod net_picture;
 pub mod picture;
 pub mod random_nets;
 pub mod renamed;

@@ -11,6 +11,7 @@ use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
 use pcl2_lang::declare;
 use pcl2_lang::diagnostic::{self, Diagnostic};
+use pcl2_lang::net::written::{self, Written};
 use pcl2_lang::source::{FileId, Sources, Span};
 use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax;
@@ -59,6 +60,12 @@ pub(crate) struct Project {
 }
 
 impl Project {
+    /// The net that is the whole program, if it is one.
+    pub(crate) fn net(&self) -> Option<Written<'_>> {
+        self.source.as_ref().filter(|(path, _)| nets::is_net(path))?;
+        written::read(self.catalogue.find(&self.stem)?, &self.sources, &self.catalogue)
+    }
+
     /// What the emitter is handed beside the program.
     pub(crate) fn emit_options(&self) -> pcl2_emit::Options<'_> {
         let known = self.catalogue.decls().collect();

@@ -6,6 +6,7 @@
 //! body, behind its ports, in the order of [`Net::signals`].
 
 pub mod table;
+pub mod written;
 
 use crate::source::Span;
 use crate::types::{Scalar, Shape, Type, Value};

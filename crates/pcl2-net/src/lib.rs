@@ -9,6 +9,7 @@ pub mod export;
 pub mod flat;
 pub mod pnml;
 pub mod pt;
+pub mod report;
 pub mod space;
 pub mod structure;
 

@@ -7,6 +7,7 @@ mod divide;
 mod export;
 mod fire;
 mod matrix;
+mod report;
 
 use crate::args::CommonArgs;
 use crate::console;
@@ -35,6 +36,8 @@ pub(crate) enum NetCommand {
     Divide(divide::DivideArgs),
     /// Write a net for another tool
     Export(export::ExportArgs),
+    /// Write the documentation of a net: picture, tables, analysis, cross-reference
+    Report(report::ReportArgs),
 }
 
 /// A net, and where those inside it are looked for.
@@ -93,6 +96,7 @@ pub(crate) fn net(command: &NetCommand) -> Outcome {
         NetCommand::Fire(args) => fire::fire(args),
         NetCommand::Divide(args) => divide::divide(args),
         NetCommand::Export(args) => export::export(args),
+        NetCommand::Report(args) => report::report(args),
     }
 }
 
