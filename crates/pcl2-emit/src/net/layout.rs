@@ -8,6 +8,12 @@ use pcl2_lang::net::{Net, PartId};
 use pcl2_lang::program::{Program, Role, Unit, UnitId};
 use pcl2_lang::types::Width;
 
+/// How long a net with modes was stopped.
+pub(crate) const STOOD: &str = "stood";
+
+/// What a net with modes keeps in ints.
+pub(crate) const MODE_COUNTERS: [&str; 3] = ["halted", "forced", "refused"];
+
 /// The layout of a net.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NetLayout {
@@ -82,6 +88,9 @@ fn fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     if layout.timed {
         add("period", "int64_t", None);
     }
+    if net.operation.is_some() {
+        add(STOOD, "int64_t", None);
+    }
     add("since", "int64_t", Some(boxes));
     add("active_since", "int64_t", Some(actives));
     add("reals", "pcl2_real", Some(layout.table.reals.len()));
@@ -93,6 +102,9 @@ fn fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     add("active", "int32_t", Some(actives));
     add("lost", "int32_t", None);
     add("conflicts", "int32_t", None);
+    for name in MODE_COUNTERS.iter().filter(|_| net.operation.is_some()) {
+        add(name, "int32_t", None);
+    }
     add("work", "pcl2_real", Some(layout.scratch.real));
     add("iwork", "int32_t", Some(layout.scratch.int));
     add("twork", "int64_t", Some(layout.scratch.time));
