@@ -1,7 +1,10 @@
 //! What the code of a net can leave out: how often each box and output is touched, and by whom.
 
-use pcl2_lang::net::{BoxId, Drive, Gate, Kind, Net, NetBox, StatementId};
-use pcl2_lang::program::{Source, Unit};
+use super::gates::GATES;
+use pcl2_lang::decl::Step;
+use pcl2_lang::net::{BoxId, Drive, Gate, Kind, Level, Net, NetBox, StatementId};
+use pcl2_lang::program::{Program, Role, SignalId, Source, Unit};
+use pcl2_lang::types::Type;
 
 /// Facts of a net for its code.
 #[derive(Clone, Debug, Default)]
@@ -16,9 +19,35 @@ pub(crate) struct NetFacts {
     pub(crate) loops: bool,
     /// By level of the words that boxes drive: the word.
     pub(crate) levels: Vec<usize>,
+    /// By gate: the input that must be 1, or 0, so that it can fire.
+    pub(crate) literals: Vec<Option<Literal>>,
+    /// Inputs and the gates that wait for them, in order.
+    waiting: Vec<(u32, usize)>,
+    /// By box: the last gate that puts into it.
+    last_putter: Vec<Option<usize>>,
+    /// By box: the last gate that takes from it and has another first box.
+    last_taker: Vec<Option<usize>>,
+    /// By box: the last gate that looks at its tokens without moving them.
+    last_watcher: Vec<Option<usize>>,
+    /// By box: the gates that it is the first box of, as words of a set.
+    pub(crate) readied: Vec<Vec<(usize, u32)>>,
+    /// By box: the outputs that it drives, as places among `levels`.
+    pub(crate) driven: Vec<Vec<usize>>,
     /// A statement reads the time of an ACTIVE line: each scan changes what the net does.
     pub(crate) ticking: bool,
 }
+
+/// An input as a condition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Literal {
+    /// The input's signal.
+    pub(crate) input: SignalId,
+    /// What it must be: not 0, or 0.
+    pub(crate) truth: bool,
+}
+
+/// The operator that makes the opposite of a condition.
+const NEGATION: &str = "NOT";
 
 /// Whether a net can become code of its own: tokens without attributes, no operator.
 pub(crate) fn is_plain(net: &Net) -> bool {
@@ -46,24 +75,30 @@ pub(crate) fn generates(place: &NetBox) -> bool {
 }
 
 /// The facts of a net; `part`: it stands inside another net.
-pub(crate) fn of(net: &Net, unit: &Unit, held: usize, part: bool) -> NetFacts {
+pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: bool) -> NetFacts {
     let mut facts = NetFacts {
         takers: vec![0; net.boxes.len()],
         putters: vec![0; net.boxes.len()],
         tracked: vec![false; net.words.len()],
         ..NetFacts::default()
     };
-    for gate in &net.gates {
-        gate.before.iter().for_each(|arc| facts.takers[arc.place.0 as usize] += 1);
-        gate.after.iter().for_each(|arc| facts.putters[arc.place.0 as usize] += 1);
-        facts.loops |= is_loop(gate);
-    }
+    let none = || vec![None; net.boxes.len()];
+    (facts.last_putter, facts.last_taker, facts.last_watcher) = (none(), none(), none());
+    (facts.readied, facts.driven) = (vec![Vec::new(); net.boxes.len()], vec![Vec::new(); net.boxes.len()]);
+    net.gates.iter().enumerate().for_each(|(i, gate)| facts.gate(i, gate));
     for abort in net.parts.iter().filter_map(|part| part.abort.as_ref()) {
         facts.putters[abort.to.0 as usize] += 1;
     }
     track(&mut facts, net, part);
+    facts.literals = net.gates.iter().map(|gate| gate_literal(program, unit, gate)).collect();
+    let waiting =
+        facts.literals.iter().enumerate().filter_map(|(gate, literal)| Some((literal.as_ref()?.input.0, gate)));
+    facts.waiting = waiting.collect();
+    facts.waiting.sort_unstable();
+    facts.watch(net, unit, held + net.words.len());
     let driven = |word: &&usize| matches!(net.words[**word].drive, Drive::Level(_));
     facts.levels = (0..net.words.len()).collect::<Vec<_>>().iter().filter(driven).copied().collect();
+    facts.drive(net);
     let timers: Vec<usize> = net.actives.iter().filter_map(|active| active.time).map(|word| word.0 as usize).collect();
     let reads = |word: usize| {
         let mut ports = unit.blocks.iter().flat_map(|block| &block.ports).filter_map(Source::signal);
@@ -71,6 +106,31 @@ pub(crate) fn of(net: &Net, unit: &Unit, held: usize, part: bool) -> NetFacts {
     };
     facts.ticking = timers.iter().any(|word| part || reads(*word));
     facts
+}
+
+/// An input that must be so whatever else holds: the condition of the only rule, or a permissive.
+fn gate_literal(program: &Program, unit: &Unit, gate: &Gate) -> Option<Literal> {
+    let sole = match gate.rules.as_slice() {
+        [rule] => rule.condition,
+        _ => None,
+    };
+    let mut conditions = sole.into_iter().chain(gate.permits.iter().map(|permit| permit.condition));
+    conditions.find_map(|condition| literal(program, unit, condition))
+}
+
+/// A condition that is an input, or the opposite of one.
+pub(crate) fn literal(program: &Program, unit: &Unit, condition: StatementId) -> Option<Literal> {
+    let block = unit.blocks.get(condition.0 as usize)?;
+    let formula = program.decl(block.decl).formula.as_deref()?;
+    let truth = match formula {
+        [Step::Port] => true,
+        [Step::Port, Step::Apply(code)] if program.decl(*code).operator.as_deref() == Some(NEGATION) => false,
+        _ => return None,
+    };
+    let input = block.ports.first().and_then(Source::signal)?;
+    let signal = unit.signal(input);
+    let port = matches!(signal.role, Role::Port(_)) && signal.ty == Type::INT;
+    port.then_some(Literal { input, truth })
 }
 
 fn is_loop(gate: &Gate) -> bool {
@@ -93,6 +153,90 @@ fn track(facts: &mut NetFacts, net: &Net, part: bool) {
 }
 
 impl NetFacts {
+    fn gate(&mut self, index: usize, gate: &Gate) {
+        for (i, arc) in gate.before.iter().enumerate() {
+            let place = arc.place.0 as usize;
+            self.takers[place] += 1;
+            if i > 0 {
+                self.last_taker[place] = Some(index);
+            }
+        }
+        for arc in &gate.after {
+            self.putters[arc.place.0 as usize] += 1;
+            self.last_putter[arc.place.0 as usize] = Some(index);
+        }
+        self.loops |= is_loop(gate);
+        if let Some(first) = gate.before.first() {
+            let (list, set, bit) = (&mut self.readied[first.place.0 as usize], index / GATES, 1 << (index % GATES));
+            match list.last_mut().filter(|(known, _)| *known == set) {
+                Some((_, gates)) => *gates |= bit,
+                None => list.push((set, bit)),
+            }
+        }
+    }
+
+    /// Gates that read a box or that it inhibits, and those whose statements look at its tokens.
+    fn watch(&mut self, net: &Net, unit: &Unit, tokens: usize) {
+        for (i, gate) in net.gates.iter().enumerate() {
+            for tested in gate.reads.iter().chain(&gate.inhibits).filter(|tested| tested.part.is_none()) {
+                self.last_watcher[tested.place.0 as usize] = Some(i);
+            }
+            let rules = gate.rules.iter().flat_map(|rule| rule.condition.iter().chain(&rule.actions));
+            for statement in rules.chain(gate.permits.iter().map(|permit| &permit.condition)) {
+                for source in &unit.blocks[statement.0 as usize].ports {
+                    if let Source::Element(signal, element) = source
+                        && signal.0 as usize == tokens
+                    {
+                        self.last_watcher[*element as usize] = Some(i);
+                    }
+                }
+            }
+        }
+    }
+
+    fn drive(&mut self, net: &Net) {
+        for (level, word) in self.levels.iter().enumerate() {
+            if let Drive::Level(levels) = &net.words[*word].drive {
+                for item in levels {
+                    if let Level::Box(place) = item {
+                        self.driven[place.0 as usize].push(level);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The gates that wait for an input.
+    pub(crate) fn waiting_for(&self, input: SignalId) -> impl Iterator<Item = usize> {
+        let first = self.waiting.partition_point(|(known, _)| *known < input.0);
+        self.waiting[first..].iter().take_while(move |(known, _)| *known == input.0).map(|(_, gate)| *gate)
+    }
+
+    /// Whether any gate waits for an input.
+    pub(crate) fn has_literals(&self) -> bool {
+        self.literals.iter().any(Option::is_some)
+    }
+
+    /// Whether a gate may take from a box at once, before the end of the phase: no gate after it in a scan asks how many
+    /// tokens the box had at the start, or what room.
+    pub(crate) fn takes_at_once(&self, net: &Net, gate: usize, place: BoxId) -> bool {
+        self.is_movable(net, gate, place) && self.last_putter[place.0 as usize].is_none_or(|last| last <= gate)
+    }
+
+    /// Whether a gate may put into a box at once: no gate after it in a scan could take the token, or asks for it. Gates
+    /// that the box is the first box of were chosen when the phase began.
+    pub(crate) fn puts_at_once(&self, net: &Net, gate: usize, place: BoxId) -> bool {
+        let sole = net.place(place).capacity == Some(1);
+        sole && self.is_movable(net, gate, place) && self.last_taker[place.0 as usize].is_none_or(|last| last <= gate)
+    }
+
+    fn is_movable(&self, net: &Net, gate: usize, place: BoxId) -> bool {
+        let plain = matches!(net.place(place).kind, Kind::State | Kind::Capacity);
+        let (before, after) = (&net.gates[gate].before, &net.gates[gate].after);
+        let stays = before.iter().any(|arc| arc.place == place) && after.iter().any(|arc| arc.place == place);
+        plain && !stays && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
+    }
+
     /// Whether any write is tracked.
     pub(crate) fn tracks(&self) -> bool {
         self.tracked.contains(&true)

@@ -8,7 +8,7 @@
 use super::facts::{generates, waits};
 use super::gates;
 use super::layout::part_unit;
-use super::statements::{self, Input};
+use super::statements;
 use super::waits;
 use super::{INDENT, NetBody, take_arguments};
 use crate::bodies::Body;
@@ -61,47 +61,22 @@ fn full(net: &Net, id: usize) -> u32 {
     }
 }
 
-/// By box: the gates that it is the first box of, as words of the set of ready ones.
-fn readied(net: &Net) -> Vec<Vec<(usize, u32)>> {
-    let mut lists: Vec<Vec<(usize, u32)>> = vec![Vec::new(); net.boxes.len()];
-    for (i, gate) in net.gates.iter().enumerate() {
-        let Some(first) = gate.before.first() else {
-            continue;
-        };
-        let (list, set, bit) = (&mut lists[first.place.0 as usize], i / gates::GATES, 1 << (i % gates::GATES));
-        match list.iter_mut().find(|(known, _)| *known == set) {
-            Some((_, gates)) => *gates |= bit,
-            None => list.push((set, bit)),
-        }
-    }
-    lists
-}
-
-/// By box: the outputs that it drives, as places among [`super::facts::NetFacts::levels`].
-fn driven(net: &NetBody<'_, '_, '_>) -> Vec<Vec<usize>> {
-    let mut lists = vec![Vec::new(); net.net.boxes.len()];
-    for (level, word) in net.layout.facts.levels.iter().enumerate() {
-        if let Drive::Level(levels) = &net.net.words[*word].drive {
-            for item in levels {
-                if let Level::Box(place) = item {
-                    lists[place.0 as usize].push(level);
-                }
-            }
-        }
-    }
-    lists
-}
-
 /// What init sets: the sets as they are with the tokens at the start.
 pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let n = net.net.boxes.len();
-    let (readied, driven) = (readied(net.net), driven(net));
+    let (readied, driven) = (&net.layout.facts.readied, &net.layout.facts.driven);
     let (mut ready, mut waiting) = (vec![0_u32; net.net.gates.len().div_ceil(32)], vec![0_u32; n.div_ceil(32)]);
     let mut shown = waiting.clone();
     let mut drives = vec![0; net.layout.facts.levels.len()];
     for (i, gate) in net.net.gates.iter().enumerate().filter(|(_, gate)| gate.before.is_empty()) {
         let _ = gate;
         ready[i / 32] |= 1 << (i % 32);
+    }
+    let mut open = vec![0_u32; ready.len()];
+    for (i, literal) in net.layout.facts.literals.iter().enumerate() {
+        if literal.is_none_or(|literal| !literal.truth) {
+            open[i / 32] |= 1 << (i % 32);
+        }
     }
     for (i, place) in net.net.boxes.iter().enumerate() {
         let (set, bit) = (i / 32, 1 << (i % 32));
@@ -116,7 +91,7 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
             readied[i].iter().for_each(|(set, gates)| ready[*set] |= gates);
         }
     }
-    for (name, sets) in [("ready", &ready), ("waiting", &waiting), ("shown", &shown)] {
+    for (name, sets) in [("ready", &ready), ("open", &open), ("waiting", &waiting), ("shown", &shown)] {
         for (i, set) in sets.iter().enumerate().filter(|(_, set)| **set != 0 && net.layout.keeps(name)) {
             let _ = writeln!(out, "    self->net.{name}[{i}] = UINT32_C(0x{set:08x});");
         }
@@ -137,6 +112,7 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
 /// Writes the functions of a net.
 pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     tables(out, net);
+    inputs(out, net);
     moves(out, net);
     macro_functions(out, net);
     waits::function(out, statics, net);
@@ -149,7 +125,7 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
 
 fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let (tag, name) = (net.tag(), &net.body.decl.name);
-    let (readied, driven) = (readied(net.net), driven(net));
+    let (readied, driven) = (&net.layout.facts.readied, &net.layout.facts.driven);
     if net.net.boxes.is_empty() {
         return;
     }
@@ -204,7 +180,7 @@ fn moves(out: &mut String, net: &NetBody<'_, '_, '_>) {
         [("excite", "|=", "The gates after a box are ready."), ("calm", "&= ~", "The gates after a box are not ready.")]
     {
         let _ = writeln!(out, "/* {says} */\nstatic inline void {tag}_{name}(struct {tag} *self, int32_t place)\n{{");
-        if readied(net.net).iter().all(Vec::is_empty) {
+        if net.layout.facts.readied.iter().all(Vec::is_empty) {
             out.push_str("    (void)self;\n    (void)place;\n}\n\n");
             continue;
         }
@@ -353,28 +329,13 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
             continue;
         }
         statements::comment(out, INDENT, statements::source(net, net.net.parts[part].statement));
-        out.push_str("    changed = 0;\n");
-        for input in &inputs {
-            take_input(out, input);
-        }
+        let ports = inputs.iter().take(layout.ports.len());
+        let arguments: Vec<&str> = ports.map(|input| input.from.as_str()).collect();
+        let arguments = arguments.join(", ");
+        let _ = writeln!(out, "    changed = {}_inputs(&self->{member}, {arguments});", layout.tag);
         let _ = writeln!(out, "    happened |= {}_boxes(&self->{member}, changed);", layout.tag);
     }
     out.push_str("    self->net.go = happened;\n    return happened;\n}\n\n");
-}
-
-fn take_input(out: &mut String, input: &Input) {
-    let Input { to, from, ty } = input;
-    if ty.elements() == 0 {
-        return;
-    }
-    let _ = writeln!(out, "    changed |= {};", differs(*ty, to, from));
-    let _ = match ty.is_scalar() {
-        true => writeln!(out, "    {to} = {from};"),
-        false => {
-            let element = pcl2_lang::kernel::c_scalar(ty.scalar);
-            writeln!(out, "    memcpy({to}, {from}, {} * sizeof({element}));", ty.elements())
-        }
-    };
 }
 
 fn gate_phase(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
@@ -384,8 +345,20 @@ fn gate_phase(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>
     for (part, _, _) in net.parts() {
         abort(out, statics, net, part);
     }
-    for word in 0..net.net.gates.len().div_ceil(gates::GATES) {
-        let _ = writeln!(out, "    {tag}_gates_{}(self, self->net.ready[{word}]);", word + 1);
+    let sets = net.net.gates.len().div_ceil(gates::GATES);
+    if sets > 0 {
+        let open = if net.layout.keeps("open") { " & self->net.open[set]" } else { "" };
+        let _ = write!(
+            out,
+            "    uint32_t ready[{sets}];
+    for (int32_t set = 0; set < {sets}; set++) {{
+        ready[set] = self->net.ready[set]{open};
+    }}
+"
+        );
+    }
+    for word in 0..sets {
+        let _ = writeln!(out, "    {tag}_gates_{}(self, ready[{word}]);", word + 1);
     }
     for (part, _, layout) in net.parts() {
         let _ = writeln!(out, "    {}_gates(&self->{});", layout.tag, member(net, part));
@@ -501,7 +474,7 @@ fn begin_wait(out: &mut String, net: &NetBody<'_, '_, '_>) -> bool {
 
 fn show(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
-    let any = driven(net).iter().any(|list| !list.is_empty());
+    let any = net.layout.facts.driven.iter().any(|list| !list.is_empty());
     if !any {
         return;
     }
@@ -537,7 +510,7 @@ fn levels(out: &mut String, net: &NetBody<'_, '_, '_>) {
     for (part, _, _) in &parts {
         part_writes(out, net, *part);
     }
-    if driven(net).iter().any(|list| !list.is_empty()) {
+    if net.layout.facts.driven.iter().any(|list| !list.is_empty()) {
         let n = net.layout.facts.levels.len();
         let _ = write!(
             out,
@@ -656,14 +629,11 @@ fn active(out: &mut String, net: &NetBody<'_, '_, '_>) {
 /// Writes a scan: the arguments are the inputs.
 pub(super) fn scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
-    let changes = changes(net);
-    if changes.is_empty() {
+    let arguments: Vec<&str> = net.body.layout.ports.iter().map(|(name, _)| name.as_str()).collect();
+    if arguments.is_empty() {
         out.push_str("    const int32_t changed = 0;\n");
     } else {
-        let _ = writeln!(out, "    const int32_t changed =\n        {};", changes.join(" |\n        "));
-        out.push_str("    if (changed) {\n");
-        take_arguments(out, net, "        ");
-        out.push_str("    }\n");
+        let _ = writeln!(out, "    const int32_t changed = {tag}_inputs(self, {});", arguments.join(", "));
     }
     let _ = write!(
         out,
@@ -680,6 +650,65 @@ pub(super) fn scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
     if net.layout.timed {
         out.push_str("    self->net.now += self->net.period;\n");
     }
+}
+
+/// Writes the function that takes inputs in: they stay until the next scan. Gates that wait for an input are open or
+/// not from then on.
+fn inputs(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let changes = changes(net);
+    if changes.is_empty() {
+        return;
+    }
+    let tag = net.tag();
+    let _ = write!(
+        out,
+        "/* Takes inputs in. Tells whether one changed. */\nstatic inline int32_t {tag}_inputs(struct {tag} *self"
+    );
+    for (name, ty) in &net.body.layout.ports {
+        let element = pcl2_lang::kernel::c_scalar(ty.scalar);
+        let _ =
+            if ty.is_scalar() { write!(out, ", {element} {name}") } else { write!(out, ", const {element} *{name}") };
+    }
+    let _ = write!(
+        out,
+        ")
+{{
+    if (({}) == 0) {{
+        return 0;
+    }}
+",
+        changes.join(" |\n         ")
+    );
+    for (i, signal) in net.body.unit.signals.iter().enumerate() {
+        if let Role::Port(port) = signal.role {
+            open(out, net, SignalId(i as u32), port);
+        }
+    }
+    take_arguments(out, net, INDENT);
+    out.push_str("    return 1;\n}\n\n");
+}
+
+/// Gates that wait for an input, or for its opposite, change sides with it.
+fn open(out: &mut String, net: &NetBody<'_, '_, '_>, input: SignalId, port: u32) {
+    let mut sets: Vec<(usize, u32)> = Vec::new();
+    for gate in net.layout.facts.waiting_for(input) {
+        let (set, bit) = (gate / gates::GATES, 1 << (gate % gates::GATES));
+        match sets.last_mut().filter(|(known, _)| *known == set) {
+            Some((_, gates)) => *gates |= bit,
+            None => sets.push((set, bit)),
+        }
+    }
+    if sets.is_empty() {
+        return;
+    }
+    let mut place = String::new();
+    expr::signal_base(&mut place, net.body.cx, net.scope(), input);
+    let argument = &net.body.layout.ports[port as usize].0;
+    let _ = writeln!(out, "    if (({argument} != 0) != ({place} != 0)) {{");
+    for (set, gates) in sets {
+        let _ = writeln!(out, "        self->net.open[{set}] ^= UINT32_C(0x{gates:08x});");
+    }
+    out.push_str("    }\n");
 }
 
 /// What tells that an input differs from the last scan's.

@@ -1,7 +1,7 @@
 //! Gates as code: each under its source line, tried only while its first box is ready.
 
 use super::statements;
-use super::{NetBody, fast};
+use super::{NetBody, facts, fast};
 use crate::statics::Statics;
 use pcl2_lang::net::{Arc, BoxId, Gate, Kind, Rule, StatementId, Tested};
 use std::fmt::Write;
@@ -17,7 +17,7 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
         let tag = net.tag();
         let _ = writeln!(
             out,
-            "/* Tries those of gates {} to {} whose boxes are ready, in the order of a scan. */",
+            "/* Tries those of gates {} to {} whose first box is ready and whose input is there, in the order of a scan. */",
             word * GATES + 1,
             word * GATES + gates.len()
         );
@@ -45,9 +45,16 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
             statements::comment(out, INDENT, net.body.cx.sources.text(rule.span));
         }
         let mut tests = if sole { enabled.clone() } else { Vec::new() };
-        tests.extend(rule.condition.map(|condition| statements::condition(out, statics, net, condition, INDENT)));
+        // The input that a gate waits for first is looked at when it changes.
+        let known = net.layout.facts.literals[index];
+        let asked = |condition: &StatementId| {
+            let same = facts::literal(net.body.cx.program, net.body.unit, *condition);
+            same.is_none() || same != known
+        };
+        let condition = rule.condition.filter(|condition| !sole || asked(condition));
+        tests.extend(condition.map(|condition| statements::condition(out, statics, net, condition, INDENT)));
         let mut allowed = room(net, gate, rule);
-        for permit in &gate.permits {
+        for permit in gate.permits.iter().filter(|permit| asked(&permit.condition)) {
             allowed.push(statements::condition(out, statics, net, permit.condition, INDENT));
         }
         if sole {
@@ -221,18 +228,62 @@ fn fire(
         let _ = writeln!(out, "{indent}{} = 0;", net.word(word.0 as usize, net.scope()));
     }
     for arc in &gate.before {
-        take(out, net, arc, indent);
+        if net.layout.facts.takes_at_once(net.net, index, arc.place) {
+            take_at_once(out, net, arc, indent);
+        } else {
+            take(out, net, arc, indent);
+        }
     }
     let number = index.to_string();
     for statement in &rule.actions {
         run(out, statics, net, *statement, &number, indent);
     }
-    for index in rule.moves.iter().flat_map(|tokens| &tokens.to) {
-        let arc = &gate.after[*index as usize];
+    for to in rule.moves.iter().flat_map(|tokens| &tokens.to) {
+        let arc = &gate.after[*to as usize];
         let room = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place)).max(0);
-        put(out, net, arc, room, &number, indent);
+        if net.layout.facts.puts_at_once(net.net, index, arc.place) {
+            put_at_once(out, net, arc, indent);
+        } else {
+            put(out, net, arc, room, &number, indent);
+        }
     }
     let _ = writeln!(out, "{indent}self->net.restless = 1;");
+}
+
+/// The box of a gate whose tokens no gate after it asks for.
+fn take_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {
+    let name = net.place(arc.place);
+    if net.net.place(arc.place).capacity == Some(1) {
+        let _ = writeln!(out, "{indent}self->box[{name}] = 0;");
+        ready(out, net, arc.place, "&= ~", indent);
+    } else {
+        let _ = writeln!(out, "{indent}self->box[{name}] -= {};", weight(arc.weight));
+        let _ = writeln!(out, "{indent}if (self->box[{name}] == 0) {{");
+        ready(out, net, arc.place, "&= ~", &format!("{indent}    "));
+        let _ = writeln!(out, "{indent}}}");
+    }
+    shows(out, net, arc.place, indent);
+}
+
+fn put_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {
+    let name = net.place(arc.place);
+    let _ = writeln!(out, "{indent}self->box[{name}] += {};", weight(arc.weight));
+    ready(out, net, arc.place, "|= ", indent);
+    shows(out, net, arc.place, indent);
+}
+
+/// Gates whose first box is this one become ready, or are no more, from the next scan on.
+fn ready(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str, indent: &str) {
+    for (set, gates) in &net.layout.facts.readied[place.0 as usize] {
+        let _ = writeln!(out, "{indent}self->net.ready[{set}] {change}UINT32_C(0x{gates:08x});");
+    }
+}
+
+/// A box that drives outputs is looked at when the phase ends.
+fn shows(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, indent: &str) {
+    if !net.layout.facts.driven[place.0 as usize].is_empty() {
+        let _ = writeln!(out, "{indent}pcl2_net_add(self->net.touched, {});", net.place(place));
+    }
 }
 
 fn take(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {

@@ -101,7 +101,7 @@ pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetF
             continue;
         };
         layout.called = called[index];
-        layout.facts = facts::of(net, unit, layout.held, part[index]);
+        layout.facts = facts::of(program, net, unit, layout.held, part[index]);
         layout.fields = match layout.form {
             NetForm::Table => table_fields(net, layout),
             NetForm::Fast => fast_fields(net, layout),
@@ -218,6 +218,7 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add_if(facts.tracks(), "conflicts", "int32_t", None);
     fields.add_if(generates, "lost", "int32_t", None);
     fields.add("ready", "uint32_t", sets(net.gates.len()));
+    fields.add_if(facts.has_literals(), "open", "uint32_t", sets(net.gates.len()));
     fields.add("touched", "uint32_t", sets(boxes));
     fields.add_if(waits, "waiting", "uint32_t", sets(boxes));
     fields.add_if(!facts.levels.is_empty(), "shown", "uint32_t", sets(boxes));

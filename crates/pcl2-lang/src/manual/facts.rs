@@ -119,6 +119,11 @@ pub(super) fn rules(decl: &Decl) -> Vec<(&'static str, String)> {
     }
     match decl.operator.as_deref() {
         None => {}
+        Some(word) if !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_uppercase()) => {
+            let ports: Vec<&str> = decl.ports().map(|port| port.name.as_str()).collect();
+            let (name, ports) = (&decl.name, ports.join(", "));
+            rules.push(("Expression", format!("`{word}`, an operator, and `{name}({ports})`, a function.")));
+        }
         Some(word) if !word.starts_with(|first: char| first.is_ascii_punctuation()) => {
             let name = if word.is_empty() { &decl.name } else { word };
             let ports: Vec<&str> = decl.ports().map(|port| port.name.as_str()).collect();
