@@ -6,9 +6,11 @@
 mod check;
 pub mod export;
 pub mod flat;
+mod flatten;
 pub mod pnml;
 pub mod pt;
 pub mod space;
 pub mod structure;
 
 pub use check::{compile, wanted};
+pub use flatten::flat_text;
