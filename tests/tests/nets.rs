@@ -11,11 +11,25 @@ use std::process::Command;
 /// The values of each column of a trace.
 type Trace = BTreeMap<String, Vec<f64>>;
 
-/// Runs a program and reads its trace.
+/// Runs a program and returns the text of its trace.
+fn run_in(path: &Path, args: &[&str], engine: &[&str]) -> Vec<u8> {
+    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args).args(engine));
+    assert!(output.status.success(), "{engine:?}: {}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+/// Runs a program in the embedded engine and in each form of its C, and reads the trace that all of them give.
 fn trace(path: &Path, args: &[&str]) -> Trace {
-    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let output = run_in(path, args, &[]);
+    for form in FORMS {
+        let compiled = run_in(path, args, &["--engine", "cc", "--net-form", form]);
+        assert_eq!(String::from_utf8_lossy(&compiled), String::from_utf8_lossy(&output), "{form}");
+    }
+    read(&output)
+}
+
+fn read(text: &[u8]) -> Trace {
+    let mut reader = csv::Reader::from_reader(text);
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
     let mut trace = Trace::new();
     for row in reader.records() {
@@ -25,6 +39,9 @@ fn trace(path: &Path, args: &[&str]) -> Trace {
     }
     trace
 }
+
+/// The forms of a net in C.
+const FORMS: [&str; 2] = ["table", "fast"];
 
 /// Runs nets written here: file name and text, the first is the program.
 fn traced(files: &[(&str, &str)], stimulus: &str, args: &[&str]) -> Trace {
@@ -286,7 +303,55 @@ END
     assert_eq!(column(&trace, "lamp"), [0., 0., 1., 1., 0., 0., 0., 0.]);
 }
 
+/// In a condition a macro is its box, whatever its outputs are.
+#[test]
+fn a_macro_in_a_condition_is_its_token() {
+    let outer = "int lamp, int inside = outer ( int go, int level : )
+STATE idle MARKED
+MACRO fill : lamp = filling ( level : )
+STATE out MARKED
+STATE in DRIVES inside
+GATE start : idle -> fill IF go
+GATE end : fill -> idle
+GATE g1 : out -> in IF fill
+GATE g2 : in -> out IF NOT fill
+END
+";
+    let inner = "int open = filling ( int level : )
+ENTRY begin DRIVES open
+EXIT finished
+GATE g : begin -> finished IF level
+END
+";
+    let stimulus = "k,go,level\n0,1,0\n1,0,1\n";
+    let trace = traced(&[("outer.net", outer), ("filling.net", inner)], stimulus, &["--steps", "5"]);
+    assert_eq!(column(&trace, "outer.fill"), [1., 1., 0., 0., 0.]);
+    assert_eq!(column(&trace, "lamp"), [1., 0., 0., 0., 0.]);
+    assert_eq!(column(&trace, "inside"), [0., 1., 1., 0., 0.]);
+}
+
 /// A net may be made of other nets alone.
+/// What a net inside counts, and what its ACTIVE tells, reaches the words of the net around it.
+#[test]
+fn words_of_a_net_inside_come_out_however_they_are_written() {
+    let outer = "int n, int step, real t = outer ( : )\nMODULE M : n, step, t = inner ( : )\nEND\n";
+    let inner = "int n, int step, real t = inner ( : )\nACTIVE step, t OF a, b\nSTATE a MARKED\nTIME b 2.\n\
+                 GATE go : a -> b\nDO n = n + 1\nGATE back : b -> a\nEND\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], "", &["--period", "1", "--steps", "8"]);
+    assert_eq!(column(&trace, "n"), [1., 1., 1., 2., 2., 2., 3., 3.]);
+    assert_eq!(column(&trace, "step"), [2., 2., 1., 2., 2., 1., 2., 2.]);
+    assert_eq!(column(&trace, "t"), [0., 1., 0., 0., 1., 0., 0., 1.]);
+}
+
+/// A gate that puts a token into a GENERATE box makes no edge of its condition.
+#[test]
+fn a_token_put_into_a_generating_box_makes_no_edge() {
+    let net = "int dummy = pool ( int more, int back : )\nCLASS c ( int a )\nSTATE spare OF c MARKED ( a = 1 ) DRIVES dummy\n\
+               GENERATE made OF c SIZE 9 WHEN more\nGATE give : spare -> made IF back\nEND\n";
+    let trace = traced(&[("pool.net", net)], "k,more,back\n0,1,0\n2,1,1\n", &["--steps", "6"]);
+    assert_eq!(column(&trace, "pool.made"), [1., 1., 2., 2., 2., 2.]);
+}
+
 #[test]
 fn a_net_of_modules_has_no_boxes_of_its_own() {
     let outer = "int q = twice ( int b : )
@@ -703,7 +768,12 @@ fn random_nets_do_what_the_definition_says() {
             let _ = writeln!(stimulus, "{k},{}", row.join(","));
         }
         let text = net.text();
-        let trace = traced(&[("plain.net", &text)], &stimulus, &["--steps", &scans.to_string()]);
+        let folder = tempfile::tempdir().unwrap();
+        let (path, values) = (folder.path().join("plain.net"), folder.path().join("stimulus.csv"));
+        fs::write(&path, &text).unwrap();
+        fs::write(&values, stimulus).unwrap();
+        let args = ["--steps", &scans.to_string(), "--stimulus", values.to_str().unwrap()];
+        let trace = read(&run_in(&path, &args, &[]));
         let mut marking = net.start.clone();
         for (scan, row) in inputs.iter().enumerate() {
             let next = net.step(&marking, row);

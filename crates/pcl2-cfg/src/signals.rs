@@ -320,11 +320,8 @@ impl<'a> Wirer<'_, 'a> {
 
     /// A variable in an expression; in a composite's body also one of its constants.
     fn operand(&mut self, name: Name) -> Option<Source> {
-        if let Some(source) = self.tokens(name) {
+        if let Some(source) = self.named(name) {
             return Some(source);
-        }
-        if let Some(id) = self.scope.by_name.get(name.symbol) {
-            return Some(Source::Signal(id));
         }
         let text = self.input.symbols.text(name.symbol);
         if let Some((owner, sizes)) = &self.scope.owner {
@@ -345,13 +342,15 @@ impl<'a> Wirer<'_, 'a> {
         None
     }
 
-    /// In a net: the tokens of a box. A macro's box has the name of the block that connects its net.
-    fn tokens(&self, name: Name) -> Option<Source> {
-        let (id, element) = self.scope.elements.get(&name.symbol)?;
-        Some(Source::Element(*id, *element))
+    /// A box of the net, else a variable. A macro has the name of both: of its box, and of the block that it calls.
+    fn named(&self, name: Name) -> Option<Source> {
+        if let Some((id, element)) = self.scope.elements.get(&name.symbol) {
+            return Some(Source::Element(*id, *element));
+        }
+        self.scope.by_name.get(name.symbol).map(Source::Signal)
     }
 
-    /// In a net: its own parameter.
+    /// The net's own parameter.
     fn of_net(&self, name: Name) -> Option<Source> {
         let owner = self.scope.owner.as_ref().map(|(decl, _)| *decl).filter(|decl| decl.net.is_some())?;
         let text = self.input.symbols.text(name.symbol);
@@ -413,11 +412,8 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn name(&mut self, port: &PortDecl, name: Name) -> Option<Source> {
-        if let Some(source) = self.tokens(name) {
+        if let Some(source) = self.named(name) {
             return Some(source);
-        }
-        if let Some(id) = self.scope.by_name.get(name.symbol) {
-            return Some(Source::Signal(id));
         }
         if let Some(source) = self.of_net(name) {
             return Some(source);

@@ -11,6 +11,7 @@ use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
 use pcl2_lang::declare;
 use pcl2_lang::diagnostic::{self, Diagnostic};
+use pcl2_lang::net::written::{self, Written};
 use pcl2_lang::source::{FileId, Sources, Span};
 use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax;
@@ -48,12 +49,28 @@ pub(crate) struct Project {
     pub(crate) kernels: Vec<(String, String)>,
     /// The content of pcl2.toml.
     pub(crate) config: Config,
+    /// How nets become C.
+    pub(crate) net_form: pcl2_emit::NetForm,
     /// The source, if it could be read: its place and its text.
     pub(crate) source: Option<(PathBuf, FileId)>,
     /// How long each phase took.
     pub(crate) timings: Vec<(&'static str, Duration)>,
     /// Bytes of source, lines and blocks.
     pub(crate) lines: usize,
+}
+
+impl Project {
+    /// The net that is the whole program, if it is one.
+    pub(crate) fn net(&self) -> Option<Written<'_>> {
+        self.source.as_ref().filter(|(path, _)| nets::is_net(path))?;
+        written::read(self.catalogue.find(&self.stem)?, &self.sources, &self.catalogue)
+    }
+
+    /// What the emitter is handed beside the program.
+    pub(crate) fn emit_options(&self) -> pcl2_emit::Options<'_> {
+        let known = self.catalogue.decls().collect();
+        pcl2_emit::Options { known, user_files: self.kernels.clone(), net_form: self.net_form }
+    }
 }
 
 /// Reads and checks the program at a path.
@@ -97,6 +114,7 @@ fn load_for(path: &Path, common: &CommonArgs, purpose: Use, replaced: Option<Vec
         symbols: loader.symbols,
         stem: place.stem,
         kernels: loader.kernels,
+        net_form: common.net_form.map(crate::args::Form::net_form).or(place.config.net_form).unwrap_or_default(),
         config: place.config,
         source: place.path.zip(place.source),
         timings: loader.timings,

@@ -6,6 +6,7 @@
 //! body, behind its ports, in the order of [`Net::signals`].
 
 pub mod table;
+pub mod written;
 
 use crate::source::Span;
 use crate::types::{Scalar, Shape, Type, Value};
@@ -57,6 +58,8 @@ pub struct Net {
 pub struct Touched {
     /// Outputs that it writes without reading them: two different values in one scan are a conflict.
     pub writes: Vec<WordId>,
+    /// Outputs that it writes and reads.
+    pub counts: Vec<WordId>,
     /// Boxes whose token it looks at or changes.
     pub looks: Vec<BoxId>,
 }

@@ -1,28 +1,31 @@
 //! `pcl2 net`: what is asked of a net before it runs.
 
 mod analyze;
+mod answers;
 mod compose;
 mod divide;
 mod export;
 mod fire;
 mod flatten;
 mod matrix;
+mod report;
 
 use crate::args::CommonArgs;
 use crate::console;
 use crate::nets::is_net;
 use crate::outcome::Outcome;
 use crate::project::{self, Project, read_regular};
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use pcl2_net::flat::{self, Flat};
 use pcl2_net::pnml;
 use pcl2_net::pt::PtNet;
+use pcl2_net::space::Semantics;
 use std::path::{Path, PathBuf};
 
 /// What is asked of a net.
 #[derive(Subcommand, Debug)]
 pub(crate) enum NetCommand {
-    /// Report bounds, dead markings, invariants and siphons of a place/transition net
+    /// Report invariants, bounds, siphons, deadlocks, liveness and reversibility of a net
     Analyze(AnalyzeArgs),
     /// Print the matrices of a net, of the nets inside it and of its modules
     Matrix(matrix::MatrixArgs),
@@ -36,6 +39,8 @@ pub(crate) enum NetCommand {
     Divide(divide::DivideArgs),
     /// Write a net for another tool
     Export(export::ExportArgs),
+    /// Write the documentation of a net: picture, tables, analysis, cross-reference
+    Report(report::ReportArgs),
 }
 
 /// A net, and where those inside it are looked for.
@@ -56,9 +61,30 @@ pub(crate) struct AnalyzeArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+    /// What may happen at once; by default one transition
+    #[arg(long, value_enum, value_name = "step|interleaving")]
+    pub(crate) semantics: Option<Choice>,
     /// The most markings that are looked at; by default what fits into half the free memory
     #[arg(long, value_name = "N")]
     pub(crate) limit: Option<usize>,
+}
+
+/// What may happen at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Choice {
+    /// All that fires in one scan
+    Step,
+    /// One transition
+    Interleaving,
+}
+
+impl Choice {
+    fn semantics(self) -> Semantics {
+        match self {
+            Choice::Step => Semantics::Step,
+            Choice::Interleaving => Semantics::Interleaving,
+        }
+    }
 }
 
 /// Runs a command.
@@ -74,6 +100,7 @@ pub(crate) fn net(command: &NetCommand) -> Outcome {
         NetCommand::Flatten(args) => flatten::flatten(args),
         NetCommand::Divide(args) => divide::divide(args),
         NetCommand::Export(args) => export::export(args),
+        NetCommand::Report(args) => report::report(args),
     }
 }
 

@@ -32,8 +32,8 @@ enum List {
     Parts,
 }
 
-/// Makes the table of a net. `inner` gives the net of each part.
-pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<&'a Net>) -> Table {
+/// Makes the table of a net. `inner` gives the net of each part, and of how many nets it is made, itself included.
+pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<(&'a Net, usize)>) -> Table {
     let mut builder = Builder { net, table: Table::default() };
     builder.table.words = vec![0; HEAD];
     builder.table.words[..3].copy_from_slice(&[count(net.boxes.len()), count(net.gates.len()), count(net.words.len())]);
@@ -50,9 +50,12 @@ pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<&'a Net>) -> Table 
     builder.start(List::Parts);
     builder.push([count(net.parts.len())]);
     let first = builder.reserve(net.parts.len());
+    let mut distance = 1;
     for (i, part) in net.parts.iter().enumerate() {
         builder.table.words[first + i] = count(builder.table.words.len());
-        builder.part(part, inner(PartId(i as u32)));
+        let (inner, nets) = inner(PartId(i as u32)).unzip();
+        builder.part(part, inner, distance);
+        distance += nets.unwrap_or(0);
     }
     builder.table
 }
@@ -216,6 +219,8 @@ impl Builder<'_> {
         let touched = &self.net.touched[index];
         self.push([count(touched.writes.len())]);
         self.table.words.extend(touched.writes.iter().map(|word| word.0 as i32));
+        self.push([count(touched.counts.len())]);
+        self.table.words.extend(touched.counts.iter().map(|word| word.0 as i32));
         self.boxes(&touched.looks);
     }
 
@@ -263,11 +268,10 @@ impl Builder<'_> {
         }
     }
 
-    fn part(&mut self, part: &Part, inner: Option<&Net>) {
+    fn part(&mut self, part: &Part, inner: Option<&Net>, distance: usize) {
         let end = |place: Option<BoxId>| place.map_or(0, |place| place.0 as i32);
         let (entry, exit) = inner.map_or((0, 0), |net| (end(net.entry), end(net.exit)));
-        let boxes = inner.map_or(0, |net| count(net.boxes.len()));
-        self.push([entry, exit, boxes, part.place.map_or(0, |place| place.0 as i32 + 1)]);
+        self.push([entry, exit, count(distance), part.place.map_or(0, |place| place.0 as i32 + 1)]);
         match &part.abort {
             Some(abort) => {
                 self.push([abort.condition.0 as i32 + 1, abort.to.0 as i32]);

@@ -210,11 +210,11 @@ impl<'a> Builder<'a> {
             match output {
                 Output::Member(owner, _) => looks.extend(place(owner)),
                 Output::Name(name) => {
-                    if let (Some((Thing::Word(word), _)), false) =
-                        (self.names.get(&name.symbol), reads.contains(&name.symbol))
-                    {
-                        touched.writes.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
-                    }
+                    let Some((Thing::Word(word), _)) = self.names.get(&name.symbol) else {
+                        continue;
+                    };
+                    let list = if reads.contains(&name.symbol) { &mut touched.counts } else { &mut touched.writes };
+                    list.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
                 }
                 Output::Discard(_) => {}
             }
