@@ -508,12 +508,12 @@ START count = 3
 ENTRY come
 TIME wait length DRIVES on
 OPERATION note DO own = own + more
-DO count = own*2 + more
+DO count = own*2 + count
 DO last = x + 1.
 EXIT gone
 GATE a : come -> wait  IF go OR on
 GATE b : wait -> note
-GATE c : note -> gone  PERMIT (own > 2), NOT count == 1
+GATE c : note -> gone  PERMIT (own > 2)
 END
 ";
 const NESTED: &str = "int both = nested ( int go, real level : real scale = 1. )
