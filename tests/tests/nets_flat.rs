@@ -7,10 +7,13 @@ use pcl2_lang::symbol::Symbols;
 use pcl2_net::flat::{Flat, flat};
 use pcl2_net::pt::{PtNet, Transition};
 use pcl2_net::structure::step::maximal_step;
-use pcl2_tests::{pcl2, run};
+use pcl2_tests::{pcl2, root, run};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
 
 /// Flattens nets that are written here, inner ones first: name and text.
 fn flattened(nets: &[(&str, &str)]) -> Result<Flat, String> {
@@ -363,16 +366,19 @@ fn after_a_scan(net: &PtNet, marking: &[u64]) -> BTreeSet<Vec<u64>> {
 
 type Trace = BTreeMap<String, Vec<u64>>;
 
-/// Runs the player: boxes of the outer net after each scan.
-fn played(nets: &[(&str, String)], stimulus: &str) -> Trace {
+/// Files of nets and a stimulus in a folder of their own.
+fn written(nets: &[(&str, &str)], stimulus: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in nets {
         fs::write(folder.path().join(format!("{name}.net")), text).unwrap();
     }
     fs::write(folder.path().join("stimulus.csv"), stimulus).unwrap();
-    let mut command = pcl2();
-    command.args(["run", "outer.net", "--stimulus", "stimulus.csv", "--trace", "-", "--period", "0.1", "--steps"]);
-    let output = run(command.arg(SCANS.to_string()).current_dir(folder.path()));
+    folder
+}
+
+/// Runs a net: boxes of the outer net after each scan.
+fn played(folder: &Path, net: &str) -> Trace {
+    let output = run(traced(net).current_dir(folder));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
@@ -385,6 +391,13 @@ fn played(nets: &[(&str, String)], stimulus: &str) -> Trace {
         }
     }
     trace
+}
+
+fn traced(net: &str) -> Command {
+    let mut command = pcl2();
+    command.args(["run", net, "--stimulus", "stimulus.csv", "--trace", "-", "--period", "0.1", "--steps"]);
+    command.arg(SCANS.to_string());
+    command
 }
 
 const SCANS: usize = 40;
@@ -404,7 +417,8 @@ fn what_the_player_does_the_abstraction_can_do() {
         for k in 1..SCANS {
             let _ = writeln!(stimulus, "{k},{},{},{}", dice.roll(2), dice.roll(2), dice.roll(2));
         }
-        let trace = played(&nets, &stimulus);
+        let folder = written(&texts, &stimulus);
+        let trace = played(folder.path(), "outer.net");
         let shown: Vec<(usize, &Vec<u64>, bool)> = trace
             .iter()
             .filter_map(|(name, values)| {
@@ -431,4 +445,168 @@ fn what_the_player_does_the_abstraction_can_do() {
     }
     assert!(entered > 100, "only {entered} macros were entered");
     assert!(alone > 1000, "only {alone} markings were certain");
+}
+
+/// Writes a net of a folder flat, into a file of the same name in a folder below. `Err`: what was said.
+fn flat_file(folder: &Path, net: &str) -> Result<(), String> {
+    let below = folder.join("flat");
+    fs::create_dir_all(&below).unwrap();
+    let output = run(pcl2().args(["net", "flatten", net, "-o"]).arg(below.join(net)).current_dir(folder));
+    match output.status.code() {
+        Some(0) => Ok(()),
+        _ => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+    }
+}
+
+/// What the trace of a net says of some columns, as text.
+fn columns(folder: &Path, net: &str, names: &[&str]) -> Vec<Vec<String>> {
+    let output = run(traced(net).current_dir(folder));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let headers = reader.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let column = |name: &&str| {
+        let at = headers.iter().position(|header| header == *name).unwrap_or_else(|| panic!("{name} in {headers:?}"));
+        rows.iter().map(|row| row[at].to_owned()).collect()
+    };
+    names.iter().map(column).collect()
+}
+
+/// Random nets, written flat, have the same tokens in the outer net's boxes after each scan.
+#[test]
+fn random_nets_do_the_same_when_they_are_flat() {
+    let mut dice = Dice(20_261_131);
+    let (mut same, mut entered) = (0, 0);
+    for number in 0..150 {
+        let nets = random(&mut dice);
+        let texts: Vec<(&str, &str)> = nets.iter().map(|(name, text)| (*name, text.as_str())).collect();
+        let mut stimulus = "k,x0,x1,x2\n".to_owned();
+        for k in 0..SCANS {
+            let _ = writeln!(stimulus, "{k},{},{},{}", dice.roll(2), dice.roll(2), dice.roll(2));
+        }
+        let folder = written(&texts, &stimulus);
+        match flat_file(folder.path(), "outer.net") {
+            Ok(()) => {
+                let (before, after) = (played(folder.path(), "outer.net"), played(folder.path(), "flat/outer.net"));
+                for (name, values) in &before {
+                    assert_eq!(Some(values), after.get(name), "net {number}, {name}:\n{nets:?}\n{stimulus}");
+                }
+                same += 1;
+                entered += usize::from(before["M"].contains(&1));
+            }
+            Err(why) => assert!(why.contains("expected"), "{why}"),
+        }
+    }
+    assert!(same > 60 && entered > 40, "only {same} nets, {entered} with a token in the macro");
+}
+
+/// Values that go in and out of nets inside: parameters, levels, what statements write, tokens with attributes.
+const STAGE: &str = "int on, int count, real last = stage ( int go, real x : real length = 0.2, int more = 1 )
+LOCAL int own = 5
+CLASS job ( int kind = 1 )
+START count = 3
+ENTRY come
+TIME wait length DRIVES on
+OPERATION note DO own = own + more
+DO count = own*2 + count
+DO last = x + 1.
+EXIT gone
+GATE a : come -> wait  IF go OR on
+GATE b : wait -> note
+GATE c : note -> gone  PERMIT (own > 2)
+END
+";
+const NESTED: &str = "int both = nested ( int go, real level : real scale = 1. )
+LOCAL int inner
+ENTRY first
+MACRO S : inner = stage ( go, level : scale, )
+EXIT last
+STATE lamp DRIVES both
+GATE a : first -> S, lamp
+GATE b : S, lamp -> last  READ S.gone
+END
+";
+const WHOLE: &str = "int q, int n, real r, int driven = whole ( int x0, int x1, real level : real slow = 0.3 )
+LOCAL int busy
+CLASS job ( int kind = 7 )
+STATE idle MARKED
+MACRO one : busy, n, r = stage ( busy2, level : slow, )
+MACRO two : q = nested ( go = x1, level = level : )
+STATE busy2 DRIVES driven
+CAPACITY jobs OF job SIZE 3
+GATE g1 : idle -> one, busy2     IF x0
+GATE g2 : one, busy2 -> two      PERMIT NOT one.wait
+GATE g3 : two -> idle, jobs
+THEN two -> idle
+THEN NEW -> jobs
+GATE g4 : jobs ->                IF jobs.kind == 7 AND x1
+END
+";
+
+#[test]
+fn values_go_in_and_out_of_a_flat_net_as_before() {
+    let mut stimulus = "k,x0,x1,level\n".to_owned();
+    for k in 0..SCANS {
+        let _ = writeln!(stimulus, "{k},{},{},{}.5", u8::from(k % 3 == 0), u8::from(k % 7 > 2), k);
+    }
+    let folder = written(&[("stage", STAGE), ("nested", NESTED), ("whole", WHOLE)], &stimulus);
+    flat_file(folder.path(), "whole.net").unwrap();
+    let names = ["q", "n", "r", "driven", "whole.idle", "whole.one", "whole.two", "whole.busy2", "whole.jobs"];
+    let before = columns(folder.path(), "whole.net", &names);
+    assert_eq!(columns(folder.path(), "flat/whole.net", &names), before);
+    for (name, values) in names.iter().zip(&before) {
+        assert!(values.iter().any(|value| value != &values[0]), "{name} never changes");
+    }
+}
+
+/// The tank's hierarchy, flat again, and the page's nets.
+#[test]
+fn the_tests_nets_do_the_same_when_they_are_flat() {
+    let folder = written(&[], "k,press,release\n0,1,0\n2,0,1\n");
+    for name in ["tank_hierarchical", "tank_step", "tank_device", "tank_level"] {
+        let file = format!("{name}.net");
+        fs::copy(root().join("tests/nets").join(&file), folder.path().join(&file)).unwrap();
+    }
+    flat_file(folder.path(), "tank_hierarchical.net").unwrap();
+    let names = ["P1", "L0", "V11", "V21", "Z11", "Z12", "D11", "D20", "tank_hierarchical.S0", "tank_hierarchical.S6"];
+    let before = columns(folder.path(), "tank_hierarchical.net", &names);
+    assert_eq!(columns(folder.path(), "flat/tank_hierarchical.net", &names), before);
+}
+
+/// What a flat net would do at another time is refused, with the names.
+#[test]
+fn what_cannot_be_flat_is_refused() {
+    let other = "int q = whole ( int x0, int x1, real level : )
+LOCAL int n
+STATE idle MARKED
+MACRO one : q, n = stage ( x0, level : )
+GATE g : idle -> one
+GATE h : one -> idle
+DO q2
+END
+";
+    let read = other.replace("DO q2\n", "GATE i : one ->  IF n\n");
+    let late = other.replace("DO q2\n", "DO n = n + 1\n").replace("one : q, n = stage ( x0,", "one : q = stage ( n,");
+    let taken = other.replace("DO q2\n", "STATE one_come\n");
+    let typed = other.replace("DO q2\n", "").replace("( x0, level", "( x0, x1");
+    let aborted = |line: &str| WHOLE.replace(line, &format!("{line}ABORT x1 -> idle\n"));
+    let cases = [
+        (aborted("slow, )\n"), "`one`: expected boxes that give their token at any time, found `wait`"),
+        (
+            aborted("level = level : )\n"),
+            "`two`: expected one token in the macro that ABORT empties, found more or none",
+        ),
+        (read, "`one`: expected nobody to read `n`, found statements that do"),
+        (late, "`one`: expected its input `go` to keep its value in a scan, found `n`"),
+        (taken, "expected a name of its own for `one.come` in the flat net, found `one_come`, which `one_come` has"),
+        (typed, "`one`: expected its input `x` to have the type of `x1`, found another"),
+    ];
+    for (text, words) in cases {
+        let folder = written(&[("stage", STAGE), ("nested", NESTED), ("whole", &text)], "k\n0\n");
+        let why = flat_file(folder.path(), "whole.net").unwrap_err();
+        assert!(why.contains(words), "{words} for\n{text}\nfound\n{why}");
+    }
+    let output = run(pcl2().args(["net", "flatten"]).arg(root().join("tests/nets/FMS-PT-00002.pnml")));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("expected a .net file"));
 }

@@ -7,6 +7,7 @@ pub mod analysis;
 mod check;
 pub mod export;
 pub mod flat;
+mod flatten;
 pub mod pnml;
 pub mod pt;
 pub mod report;
@@ -14,3 +15,4 @@ pub mod space;
 pub mod structure;
 
 pub use check::{compile, wanted};
+pub use flatten::flat_text;

@@ -6,6 +6,7 @@ mod compose;
 mod divide;
 mod export;
 mod fire;
+mod flatten;
 mod matrix;
 mod report;
 
@@ -13,7 +14,7 @@ use crate::args::CommonArgs;
 use crate::console;
 use crate::nets::is_net;
 use crate::outcome::Outcome;
-use crate::project::{self, read_regular};
+use crate::project::{self, Project, read_regular};
 use clap::{Args, Subcommand, ValueEnum};
 use pcl2_net::flat::{self, Flat};
 use pcl2_net::pnml;
@@ -32,6 +33,8 @@ pub(crate) enum NetCommand {
     Compose(compose::ComposeArgs),
     /// Fire transitions after the state equation, and check that they are enabled
     Fire(fire::FireArgs),
+    /// Write a net with the nets inside it as one flat net
+    Flatten(flatten::FlattenArgs),
     /// Divide a flat net by its steps into a main loop and sub-nets
     Divide(divide::DivideArgs),
     /// Write a net for another tool
@@ -94,6 +97,7 @@ pub(crate) fn net(command: &NetCommand) -> Outcome {
         NetCommand::Matrix(args) => matrix::matrix(args),
         NetCommand::Compose(args) => compose::compose(args),
         NetCommand::Fire(args) => fire::fire(args),
+        NetCommand::Flatten(args) => flatten::flatten(args),
         NetCommand::Divide(args) => divide::divide(args),
         NetCommand::Export(args) => export::export(args),
         NetCommand::Report(args) => report::report(args),
@@ -110,11 +114,17 @@ pub(crate) fn load(path: &Path, blocks: &[PathBuf]) -> Result<PtNet, Outcome> {
 
 /// Reads a .net file with all nets inside it.
 pub(crate) fn load_flat(path: &Path, blocks: &[PathBuf]) -> Result<Flat, Outcome> {
+    let project = load_project(path, blocks)?;
+    let decl = project.catalogue.find(&project.stem).ok_or(Outcome::Errors)?;
+    flat::flat(decl, &project.catalogue, &project.symbols).map_err(|why| refuse(path, &why))
+}
+
+/// Reads and checks a .net file with all nets inside it.
+fn load_project(path: &Path, blocks: &[PathBuf]) -> Result<Project, Outcome> {
     let common = CommonArgs { blocks: blocks.to_vec(), ..CommonArgs::default() };
     let project = project::load(path, &common)?;
     console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
-    let decl = project.catalogue.find(&project.stem).filter(|_| project.verified.is_some()).ok_or(Outcome::Errors)?;
-    flat::flat(decl, &project.catalogue, &project.symbols).map_err(|why| refuse(path, &why))
+    if project.verified.is_some() { Ok(project) } else { Err(Outcome::Errors) }
 }
 
 fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {

@@ -9,7 +9,7 @@ mod abort;
 mod condition;
 mod gates;
 mod renewal;
-mod scopes;
+pub(crate) mod scopes;
 
 use crate::pt::{Arc, PlaceId, PtNet, Transition, TransitionId};
 use pcl2_lang::catalogue::Catalogue;

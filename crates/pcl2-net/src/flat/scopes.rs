@@ -10,23 +10,24 @@ use pcl2_lang::symbol::Symbols;
 use rustc_hash::FxHashMap;
 
 /// A net, at the place where it stands.
-pub(super) struct Scope<'a> {
-    pub(super) net: &'a Net,
+pub(crate) struct Scope<'a> {
+    pub(crate) decl: &'a Decl,
+    pub(crate) net: &'a Net,
     body: &'a [Statement],
     /// `D.V.`; empty outermost.
-    pub(super) prefix: String,
-    pub(super) is_macro: bool,
+    pub(crate) prefix: String,
+    pub(crate) is_macro: bool,
     /// The scope that it stands in.
-    pub(super) outer: usize,
+    pub(crate) outer: usize,
     /// The scopes of its parts.
-    pub(super) parts: Vec<usize>,
+    pub(crate) parts: Vec<usize>,
     /// The place of its first box.
     first: usize,
     boxes: FxHashMap<&'a str, BoxId>,
 }
 
 /// The net and those inside it, outer ones first.
-pub(super) fn scopes<'a>(
+pub(crate) fn scopes<'a>(
     decl: &'a Decl,
     catalogue: &'a Catalogue,
     symbols: &Symbols,
@@ -55,7 +56,7 @@ fn add<'a>(
     if *places > MAX_PLACES || index > MAX_PLACES {
         return Err(format!("expected at most {MAX_PLACES} boxes with those of the nets inside, found more"));
     }
-    scopes.push(Scope { net, body, prefix: prefix.clone(), is_macro, outer, parts: Vec::new(), first, boxes });
+    scopes.push(Scope { decl, net, body, prefix: prefix.clone(), is_macro, outer, parts: Vec::new(), first, boxes });
     for part in &net.parts {
         let code = symbols.text(body[part.statement.0 as usize].code.symbol);
         let inner = catalogue.find(code).ok_or_else(|| format!("expected a net, found `{code}`"))?;
@@ -67,7 +68,7 @@ fn add<'a>(
 }
 
 /// The places of all scopes.
-pub(super) fn places(scopes: &[Scope<'_>]) -> Vec<Place> {
+pub(crate) fn places(scopes: &[Scope<'_>]) -> Vec<Place> {
     let of_scope = |scope: &Scope<'_>| {
         let place = |place: &pcl2_lang::net::NetBox| Place {
             name: format!("{}{}", scope.prefix, place.name),
@@ -81,38 +82,43 @@ pub(super) fn places(scopes: &[Scope<'_>]) -> Vec<Place> {
 
 impl<'a> Scope<'a> {
     /// Where it stands, unless it is the outermost.
-    pub(super) fn path(&self) -> Option<&str> {
+    pub(crate) fn path(&self) -> Option<&str> {
         self.prefix.strip_suffix('.')
     }
 
     /// The place of a box.
-    pub(super) fn place(&self, id: BoxId) -> PlaceId {
+    pub(crate) fn place(&self, id: BoxId) -> PlaceId {
         PlaceId(self.first as u32 + id.0)
     }
 
     /// The places of all its boxes.
-    pub(super) fn place_ids(&self) -> impl Iterator<Item = PlaceId> + use<> {
+    pub(crate) fn place_ids(&self) -> impl Iterator<Item = PlaceId> + use<> {
         (self.first as u32..(self.first + self.net.boxes.len()) as u32).map(PlaceId)
     }
 
     /// The places of the boxes that make tokens.
-    pub(super) fn generations(&self) -> Vec<PlaceId> {
+    pub(crate) fn generations(&self) -> Vec<PlaceId> {
         let makes = |id: &PlaceId| matches!(self.net.boxes[id.0 as usize - self.first].kind, Kind::Generation(_));
         self.place_ids().filter(makes).collect()
     }
 
     /// The box of a name.
-    pub(super) fn find(&self, name: &str) -> Option<BoxId> {
+    pub(crate) fn find(&self, name: &str) -> Option<BoxId> {
         self.boxes.get(name).copied()
     }
 
     /// The part of a name.
-    pub(super) fn part(&self, name: &str) -> Option<PartId> {
+    pub(crate) fn part(&self, name: &str) -> Option<PartId> {
         self.net.parts.iter().position(|part| part.name == name).map(|i| PartId(i as u32))
     }
 
+    /// All statements.
+    pub(crate) fn body(&self) -> &'a [Statement] {
+        self.body
+    }
+
     /// A statement.
-    pub(super) fn statement(&self, id: StatementId) -> &'a Statement {
+    pub(crate) fn statement(&self, id: StatementId) -> &'a Statement {
         &self.body[id.0 as usize]
     }
 }
