@@ -629,11 +629,10 @@ fn active(out: &mut String, net: &NetBody<'_, '_, '_>) {
 /// Writes a scan: the arguments are the inputs.
 pub(super) fn scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
-    let arguments: Vec<&str> = net.body.layout.ports.iter().map(|(name, _)| name.as_str()).collect();
-    if arguments.is_empty() {
+    if changes(net).is_empty() {
         out.push_str("    const int32_t changed = 0;\n");
     } else {
-        let _ = writeln!(out, "    const int32_t changed = {tag}_inputs(self, {});", arguments.join(", "));
+        take_changed(out, net);
     }
     let _ = write!(
         out,
@@ -652,40 +651,38 @@ pub(super) fn scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
 }
 
-/// Writes the function that takes inputs in: they stay until the next scan. Gates that wait for an input are open or
-/// not from then on.
+/// Writes the function that takes the inputs of a net inside another in.
 fn inputs(out: &mut String, net: &NetBody<'_, '_, '_>) {
-    let changes = changes(net);
-    if changes.is_empty() {
+    if !net.layout.facts.part || changes(net).is_empty() {
         return;
     }
     let tag = net.tag();
     let _ = write!(
         out,
-        "/* Takes inputs in. Tells whether one changed. */\nstatic inline int32_t {tag}_inputs(struct {tag} *self"
+        "/* Takes inputs in. Tells whether one changed. */\nstatic int32_t {tag}_inputs(struct {tag} *self"
     );
     for (name, ty) in &net.body.layout.ports {
         let element = pcl2_lang::kernel::c_scalar(ty.scalar);
         let _ =
             if ty.is_scalar() { write!(out, ", {element} {name}") } else { write!(out, ", const {element} *{name}") };
     }
-    let _ = write!(
-        out,
-        ")
-{{
-    if (({}) == 0) {{
-        return 0;
-    }}
-",
-        changes.join(" |\n         ")
-    );
+    out.push_str(")\n{\n");
+    take_changed(out, net);
+    out.push_str("    return changed != 0;\n}\n\n");
+}
+
+/// Writes how inputs are taken in if one changed: they stay until the next scan. Gates that wait for an input are open
+/// or not from then on.
+fn take_changed(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let _ = writeln!(out, "    const int32_t changed =\n        {};", changes(net).join(" |\n        "));
+    out.push_str("    if (changed) {\n");
     for (i, signal) in net.body.unit.signals.iter().enumerate() {
         if let Role::Port(port) = signal.role {
             open(out, net, SignalId(i as u32), port);
         }
     }
-    take_arguments(out, net, INDENT);
-    out.push_str("    return 1;\n}\n\n");
+    take_arguments(out, net, "        ");
+    out.push_str("    }\n");
 }
 
 /// Gates that wait for an input, or for its opposite, change sides with it.
@@ -704,11 +701,11 @@ fn open(out: &mut String, net: &NetBody<'_, '_, '_>, input: SignalId, port: u32)
     let mut place = String::new();
     expr::signal_base(&mut place, net.body.cx, net.scope(), input);
     let argument = &net.body.layout.ports[port as usize].0;
-    let _ = writeln!(out, "    if (({argument} != 0) != ({place} != 0)) {{");
+    let _ = writeln!(out, "        if (({argument} != 0) != ({place} != 0)) {{");
     for (set, gates) in sets {
-        let _ = writeln!(out, "        self->net.open[{set}] ^= UINT32_C(0x{gates:08x});");
+        let _ = writeln!(out, "            self->net.open[{set}] ^= UINT32_C(0x{gates:08x});");
     }
-    out.push_str("    }\n");
+    out.push_str("        }\n");
 }
 
 /// What tells that an input differs from the last scan's.

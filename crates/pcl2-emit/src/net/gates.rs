@@ -242,7 +242,8 @@ fn fire(
         let arc = &gate.after[*to as usize];
         let room = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place)).max(0);
         if net.layout.facts.puts_at_once(net.net, index, arc.place) {
-            put_at_once(out, net, arc, indent);
+            let targets = rule.moves.iter().flat_map(|tokens| &tokens.to).filter(|other| *other == to);
+            put_at_once(out, net, arc, targets.count() == 1, indent);
         } else {
             put(out, net, arc, room, &number, indent);
         }
@@ -265,9 +266,10 @@ fn take_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: 
     shows(out, net, arc.place, indent);
 }
 
-fn put_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {
-    let name = net.place(arc.place);
-    let _ = writeln!(out, "{indent}self->box[{name}] += {};", weight(arc.weight));
+/// A box of one token, which no gate after it asks for. `once`: the rule puts no other token there.
+fn put_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, once: bool, indent: &str) {
+    let sign = if once { "=" } else { "+=" };
+    let _ = writeln!(out, "{indent}self->box[{}] {sign} {};", net.place(arc.place), weight(arc.weight));
     ready(out, net, arc.place, "|= ", indent);
     shows(out, net, arc.place, indent);
 }
