@@ -10,6 +10,12 @@ use pcl2_lang::net::{Kind, Net, PartId};
 use pcl2_lang::program::{Program, Role, Unit, UnitId};
 use pcl2_lang::types::Width;
 
+/// How long a net with modes was stopped.
+pub(crate) const STOOD: &str = "stood";
+
+/// What a net with modes keeps in ints.
+pub(crate) const MODE_COUNTERS: [&str; 3] = ["halted", "forced", "refused"];
+
 /// The layout of a net.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NetLayout {
@@ -170,6 +176,7 @@ fn table_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     let mut fields = Fields::default();
     fields.add("now", "int64_t", None);
     fields.add_if(layout.timed, "period", "int64_t", None);
+    fields.add_if(net.operation.is_some(), STOOD, "int64_t", None);
     fields.add("since", "int64_t", Some(boxes));
     fields.add("active_since", "int64_t", Some(actives));
     fields.add("reals", "pcl2_real", Some(layout.table.reals.len()));
@@ -181,6 +188,9 @@ fn table_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add("active", "int32_t", Some(actives));
     fields.add("lost", "int32_t", None);
     fields.add("conflicts", "int32_t", None);
+    for name in MODE_COUNTERS {
+        fields.add_if(net.operation.is_some(), name, "int32_t", None);
+    }
     fields.scratch(layout);
     fields.0
 }

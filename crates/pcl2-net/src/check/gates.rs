@@ -7,7 +7,7 @@ use pcl2_lang::ast::net::{ArcTerm, BoxName, GateClause, Route};
 use pcl2_lang::ast::{Operand, Statement};
 use pcl2_lang::codes;
 use pcl2_lang::diagnostic::Diagnostic;
-use pcl2_lang::net::{Arc, BoxId, Gate, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
+use pcl2_lang::net::{Arc, BoxId, Gate, GateId, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
 use pcl2_lang::symbol::Symbol;
@@ -31,8 +31,14 @@ pub(super) fn gates(builder: &mut Builder<'_>, outline: &mut Outline) {
             return;
         }
     }
+    let mut order: Vec<usize> = (0..gates.len()).collect();
+    order.sort_by_key(|i| -i64::from(gates[*i].priority));
+    let mut numbered = vec![GateId(0); gates.len()];
+    for (place, i) in order.into_iter().enumerate() {
+        numbered[i] = GateId(place as u32);
+    }
     gates.sort_by_key(|gate| -i64::from(gate.priority));
-    builder.net.gates = gates;
+    (builder.net.gates, builder.net.numbered) = (gates, numbered);
 }
 
 struct Reader<'b, 'a> {

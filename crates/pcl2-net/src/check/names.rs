@@ -1,7 +1,7 @@
 //! Pass 2: words, classes, boxes and parts have their places and names of their own.
 
 use super::outline::{Outline, Placed};
-use super::{Builder, Thing, zero};
+use super::{Builder, Thing, operation, zero};
 use pcl2_lang::ast::Name;
 use pcl2_lang::ast::net::{BoxKind, BoxLine, Preset, Typed};
 use pcl2_lang::codes;
@@ -17,6 +17,7 @@ use pcl2_lang::types::{Scalar, Value};
 pub(super) fn collect(builder: &mut Builder<'_>, names: &HeadNames, outline: &Outline) {
     head(builder, names);
     commands(builder, outline);
+    operation::modes(builder, outline);
     for local in &outline.locals {
         builder.local(local);
     }
@@ -53,15 +54,8 @@ fn head(builder: &mut Builder<'_>, names: &HeadNames) {
 fn commands(builder: &mut Builder<'_>, outline: &Outline) {
     for name in &outline.momentary {
         let text = builder.text(*name);
-        let port = builder.decl.ports().position(|port| port.name == text);
-        let fits =
-            builder.decl.ports().any(|port| port.name == text && port.cell && port.ty == TypeExpr::Scalar(Scalar::Int));
-        match port {
-            Some(port) if fits => builder.command(port, &text, name.span),
-            Some(_) | None => {
-                let message = format!("expected an input that is declared `cell int`, found `{text}`");
-                builder.complain(codes::NET_LINE, name.span, message, "declare it in the head: `cell int start = 0`");
-            }
+        if let Some(port) = builder.momentary(*name, &text) {
+            builder.command(port, &text, name.span);
         }
     }
 }
@@ -136,7 +130,7 @@ impl Builder<'_> {
         self.push_word(name, scalar, initial, span);
     }
 
-    fn push_word(&mut self, name: &str, scalar: Scalar, initial: Value, span: Span) {
+    pub(super) fn push_word(&mut self, name: &str, scalar: Scalar, initial: Value, span: Span) {
         let (name, drive) = (name.to_owned(), Drive::Written);
         self.net.words.push(Word { name, scalar, initial, drive, span });
         self.written.push(None);
@@ -152,7 +146,23 @@ impl Builder<'_> {
         self.word(&name, local.scalar, initial.unwrap_or_else(|| zero(local.scalar)), local.name.span);
     }
 
-    fn command(&mut self, port: usize, name: &str, span: Span) {
+    /// The port of a command: one that a net can clear, and that is no command yet.
+    pub(super) fn momentary(&mut self, name: Name, text: &str) -> Option<usize> {
+        let int = TypeExpr::Scalar(Scalar::Int);
+        let port = self.decl.ports().position(|port| port.name == text && port.cell && port.ty == int);
+        if port.is_some_and(|port| self.net.momentary.iter().any(|(known, _)| *known as usize == port)) {
+            let message = format!("expected each command once, found `{text}` again");
+            self.complain(codes::NET_LINE, name.span, message, "a command is for one thing");
+            return None;
+        }
+        if port.is_none() {
+            let message = format!("expected an input that is declared `cell int`, found `{text}`");
+            self.complain(codes::NET_LINE, name.span, message, "declare it in the head: `cell int start = 0`");
+        }
+        port
+    }
+
+    pub(super) fn command(&mut self, port: usize, name: &str, span: Span) {
         let id = WordId(self.net.words.len() as u32);
         let symbol = self.symbols.intern(name);
         self.names.insert(symbol, (Thing::Word(id), span));
