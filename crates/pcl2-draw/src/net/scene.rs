@@ -105,19 +105,50 @@ fn columns(sizes: &[(i32, i32)]) -> Columns {
     tried.min_by_key(cost).unwrap_or_default()
 }
 
-/// Columns of at most this height, filled in order.
+/// Columns of at most this height, filled in order. Sheets stand side by side where a column is wide enough.
 fn filled(sizes: &[(i32, i32)], height: i32) -> Columns {
     let mut columns = Columns::default();
-    let (mut x, mut y, mut width) = (0, 0, 0);
+    let mut column = Column::default();
     for size in sizes {
-        if y > 0 && y + size.1 > height {
-            (x, y, width) = (x + width + GAP, 0, 0);
+        if !column.fits_beside(*size, height) {
+            column.next_row();
         }
-        columns.places.push((x, y));
-        columns.height = columns.height.max(y + size.1);
-        width = width.max(size.0);
-        columns.width = columns.width.max(x + width);
-        y += size.1 + GAP;
+        if column.y > 0 && column.y + size.1 > height {
+            column = Column { left: column.left + column.width + GAP, ..Column::default() };
+        }
+        columns.places.push((column.left + column.x, column.y));
+        column.put(*size);
+        columns.width = columns.width.max(column.left + column.width);
+        columns.height = columns.height.max(column.y + column.row);
     }
     columns
+}
+
+/// A column in the making.
+#[derive(Default)]
+struct Column {
+    left: i32,
+    width: i32,
+    /// The row that is filled: its top, where the next sheet stands in it, and its height.
+    y: i32,
+    x: i32,
+    row: i32,
+}
+
+impl Column {
+    fn fits_beside(&self, size: (i32, i32), height: i32) -> bool {
+        self.x > 0 && self.x + size.0 <= self.width && self.y + size.1 <= height
+    }
+
+    fn next_row(&mut self) {
+        if self.x > 0 {
+            (self.y, self.x, self.row) = (self.y + self.row + GAP, 0, 0);
+        }
+    }
+
+    fn put(&mut self, size: (i32, i32)) {
+        self.width = self.width.max(self.x + size.0);
+        self.row = self.row.max(size.1);
+        self.x += size.0 + GAP;
+    }
 }
