@@ -8,6 +8,8 @@
 #define PCL2_NET_LOST 1     /* a token was to be made while one was waiting for room: it is lost */
 #define PCL2_NET_CONFLICT 2 /* two different values were written in one scan: the gate of higher priority wins */
 #define PCL2_NET_TIMEOUT 3  /* a process box was not complete within its supervision time */
+#define PCL2_NET_FORCED 4   /* an operator forced a gate or a token */
+#define PCL2_NET_REFUSED 5  /* a command of an operator was refused */
 
 /* What a box has done since its token came. Of a generating box: bit 0 its condition, bit 1 an edge that waits. */
 #define PCL2_NET_NEW 0

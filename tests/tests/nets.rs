@@ -70,10 +70,44 @@ fn marked(trace: &Trace, scan: usize) -> Vec<&str> {
 }
 
 fn tank() -> Trace {
+    tank_in("tank.net", "18")
+}
+
+fn tank_in(file: &str, steps: &str) -> Trace {
     let folder = tempfile::tempdir().unwrap();
     let stimulus = folder.path().join("button.csv");
     fs::write(&stimulus, "k,press,release\n0,1,0\n2,0,1\n").unwrap();
-    trace(&root().join("tests/nets/tank.net"), &["--steps", "18", "--stimulus", stimulus.to_str().unwrap()])
+    trace(&root().join("tests/nets").join(file), &["--steps", steps, "--stimulus", stimulus.to_str().unwrap()])
+}
+
+/// How often each of some places is entered, and whether it is marked at the end.
+fn entered(trace: &Trace, start: &[&str], column: impl Fn(&str) -> String, places: &[&str]) -> Vec<(usize, bool)> {
+    let one = |place: &&str| {
+        let values = self::column(trace, &column(place));
+        let before = std::iter::once(f64::from(u8::from(start.contains(place)))).chain(values.iter().copied());
+        let times = before.zip(values).filter(|(before, now)| **now > *before).count();
+        (times, values.last().is_some_and(|last| *last > 0.))
+    };
+    places.iter().map(one).collect()
+}
+
+/// The tank in a hierarchy, steps as macros and devices as modules, enters each place as often as the flat net does,
+/// from the start back to the start. A macro takes one scan more, from its entry to its exit: four of them do.
+#[test]
+fn the_hierarchical_tank_does_what_the_flat_one_does() {
+    let start = ["D10", "D21", "L1", "P0", "S0", "V10", "V20", "Z10"];
+    let steps = ["S0", "S1", "S2", "S3", "S4", "S5", "S6"];
+    let devices = ["P0", "P1", "L1", "L0", "V10", "V11", "V20", "V21", "Z10", "Z11", "Z12", "D10", "D11", "D20", "D21"];
+    let (flat, hierarchical) = (tank_in("tank.net", "16"), tank_in("tank_hierarchical.net", "20"));
+    for (places, is_step) in [(steps.as_slice(), true), (devices.as_slice(), false)] {
+        let expected = entered(&flat, &start, |place| format!("tank.{place}"), places);
+        let name = |place: &str| if is_step { format!("tank_hierarchical.{place}") } else { place.to_owned() };
+        assert_eq!(entered(&hierarchical, &start, name, places), expected);
+        let firings: usize = expected.iter().map(|(times, _)| times).sum();
+        assert_eq!(firings, if is_step { 7 } else { 16 });
+        let marked: Vec<bool> = places.iter().map(|place| start.contains(place)).collect();
+        assert_eq!(expected.iter().map(|(_, marked)| *marked).collect::<Vec<_>>(), marked);
+    }
 }
 
 /// Jeong and Yang, equations (9), (15), (16), (17): the marked places after the scans.
@@ -540,6 +574,51 @@ fn nets_with_mistakes_are_refused() {
         assert_eq!(output.status.code(), Some(1), "{text}\n{shown}");
         assert!(shown.contains(code), "{code} for\n{text}\nfound\n{shown}");
     }
+}
+
+/// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
+/// used; a help can be followed.
+#[test]
+fn a_mistake_is_told_once_at_its_place() {
+    let cases = [
+        ("int v, int q = bad ( : )\nSTATE a MARKED DRIVES v\nEND\n", "P0407", "bad.net:1:12"),
+        ("int v, real q = bad ( : )\nSTATE a MARKED DRIVES v, q\nEND\n", "P0407", "bad.net:1:13"),
+        ("int v = bad ( int v : )\nSTATE a MARKED DRIVES v\nEND\n", "P0402", "bad.net:1:5"),
+        ("ivec[2] v = bad ( : )\nSTATE a MARKED\nEND\n", "P0501", "bad.net:1:9"),
+        (
+            "int on = bad ( int b : )\nSTATE off MARKED\nSTATE on DRIVES on\nGATE g : off -> on IF b\nGATE h : on -> off\nEND\n",
+            "P0402",
+            "bad.net:3:7",
+        ),
+        ("= bad ( : )\nSTATE a MARKED 2\nEND\n", "P0404", "expected at most 1 token in `a`, found 2"),
+        ("= bad ( : )\nSTATE a MARKED\nSTATE b\nGATE g : 2*a -> b\nEND\n", "P0404", "at most 1 token from or to `a`"),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nEND\n",
+            "P0405",
+            "help: make a new one: `THEN a -> nothing`, `THEN NEW -> b`",
+        ),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE p OF c MARKED\nSTATE b OF c\nGATE g : a, p -> b\nEND\n",
+            "P0405",
+            "help: say with THEN which token goes where: `THEN p -> b`",
+        ),
+    ];
+    for (text, code, words) in cases {
+        let (status, shown) = checked(text);
+        assert_eq!(status, Some(1), "{text}\n{shown}");
+        assert_eq!(shown.matches("error[").count(), 1, "{text}\n{shown}");
+        assert!(shown.contains(code) && shown.contains(words), "{code} {words} for\n{text}\nfound\n{shown}");
+    }
+    let followed = "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nTHEN a -> nothing\nTHEN NEW -> b\nEND\n";
+    assert_eq!(checked(followed), (Some(0), String::new()));
+}
+
+/// Checks the net `bad`.
+fn checked(text: &str) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.net"), text).unwrap();
+    let output = run(pcl2().args(["check", "bad.net"]).current_dir(folder.path()));
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 /// The player compiles without a word, in both widths, on the host and for a microcontroller.

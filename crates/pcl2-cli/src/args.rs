@@ -27,7 +27,7 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// List parameters, compare them with the source, or save them in it
     Params(crate::params::ParamsArgs),
-    /// Draw the block diagram of a program
+    /// Draw the block diagram of a program, or a net
     Graph(GraphArgs),
     /// Analyse Petri nets
     #[command(subcommand)]
@@ -176,7 +176,7 @@ pub(crate) enum Part {
 /// `pcl2 fmt`
 #[derive(Args, Debug)]
 pub(crate) struct FmtArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     #[arg(required = true, value_name = "PATH")]
     pub(crate) paths: Vec<PathBuf>,
     /// Number the blocks 1, 2, 3 .. in order of execution, and change what refers to numbers
@@ -193,7 +193,7 @@ pub(crate) struct FmtArgs {
 /// `pcl2 graph`
 #[derive(Args, Debug)]
 pub(crate) struct GraphArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     pub(crate) path: PathBuf,
     /// The picture (`-`: to standard output)
     #[arg(short, long, value_name = "SVG")]

@@ -31,7 +31,7 @@ pub(crate) fn value_in_steps(
         if matches!(step, Step::Apply(_)) && !tree.is_int(at) {
             let mut text = String::new();
             tree.write(&mut text, statics, at);
-            let name = format!("r{}", tree.named.iter().flatten().count() + 1);
+            let name = format!("r{}_{}", call.id.0, tree.named.iter().flatten().count() + 1);
             out.extend([indent, "const pcl2_real ", &name, " = ", &text, ";\n"]);
             tree.named[at] = Some(name);
         }

@@ -163,7 +163,8 @@ pub(crate) struct Script {
 pub(crate) struct NetPlan {
     /// The table.
     pub(crate) table: Vec<i32>,
-    /// box, taken, filled, used, phase, by, hold, since, ints, reals, wrote, active, active_since, lost, conflicts.
+    /// box, taken, filled, used, phase, by, hold, since, ints, reals, wrote, active, active_since, lost, conflicts; of a
+    /// net with modes also stood, halted, forced, refused.
     pub(crate) arrays: Vec<Slot>,
     /// Where each word is.
     pub(crate) words: Vec<usize>,
@@ -197,9 +198,13 @@ struct Player {
     outer: *const Player,
     inputs: i32,
     now: i64,
+    mode: i32,
+    blocked: i32,
+    switched: i32,
     status: *mut i32,
     lost: *mut c_void,
     conflicts: *mut c_void,
+    operated: [*mut c_void; OPERATED],
     act: unsafe extern "C" fn(*const Player, i32) -> i32,
     duration: unsafe extern "C" fn(*const Player, i32) -> i64,
     host: *const c_void,
@@ -207,6 +212,12 @@ struct Player {
 
 /// How many of a net's arrays stand one after the other in `struct pcl2_net`: from `box` to `reals`.
 const ROW: usize = 10;
+
+/// How many arrays stand behind those.
+const MORE: usize = 5;
+
+/// How many more a net with modes has.
+const OPERATED: usize = 4;
 
 unsafe extern "C" {
     fn pcl2_net_scan(nets: *mut Player, n: i32, now: *mut i64, period: i64);
@@ -578,9 +589,11 @@ impl Storage {
         for slot in &net.arrays {
             arrays.push(self.place::<u64>(slot.at, slot.bytes.max(8)).map(<*mut u64>::cast::<c_void>)?);
         }
-        if arrays.len() != ROW + 5 {
+        if arrays.len() != ROW + MORE && arrays.len() != ROW + MORE + OPERATED {
             return Err(NoRoom::Outside);
         }
+        let mut operated = [std::ptr::null_mut(); OPERATED];
+        operated[..arrays.len() - ROW - MORE].copy_from_slice(&arrays[ROW + MORE..]);
         let mut row = [std::ptr::null_mut(); ROW];
         row.copy_from_slice(&arrays[..ROW]);
         Ok(Player {
@@ -595,9 +608,13 @@ impl Storage {
             outer: std::ptr::null(),
             inputs: net.inputs,
             now: 0,
+            mode: 0,
+            blocked: 0,
+            switched: 0,
             status: self.place(net.status, 4)?,
             lost: arrays[ROW + 3],
             conflicts: arrays[ROW + 4],
+            operated,
             act,
             duration,
             host: std::ptr::from_ref(host).cast(),

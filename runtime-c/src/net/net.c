@@ -12,12 +12,23 @@
  * levels  n, of each: word, n, boxes, n, (part, output)
  * actives n, of each: word, word of the time + 1, n, boxes
  * parts   n, of each: entry, exit, how far behind the net it stands, box of the macro + 1,
- *         abort: condition + 1, box, n, statements; n, (output, word) */
+ *         abort: condition + 1, box, n, statements; n, (output, word)
+ * operated  words, each + 1: of BLOCKED, of the mode, of the commands go, fire, put, take; n, of each word that has a
+ *         value of its own while the net is stopped: word, its place among the attributes; the gates in the order of
+ *         the file; by gate the number of its first permissive term */
 #include "pcl2_net.h"
 
 #define NET_ORDER_FIFO 0
 #define NET_ORDER_LIFO 1
 #define NET_ORDER_LEAST 2
+
+#define NET_OPERATED_BLOCKED 0
+#define NET_OPERATED_MODE 1
+#define NET_OPERATED_GO 2
+#define NET_OPERATED_FIRE 3
+#define NET_OPERATED_PUT 4
+#define NET_OPERATED_TAKE 5
+#define NET_OPERATED_STOPS 6
 
 
 static const pcl2_net_word *net_record(const struct pcl2_net *net, int32_t list, int32_t index)
@@ -166,6 +177,127 @@ static void net_remove_token(struct pcl2_net *net, int32_t b, int32_t place)
         }
     }
     net->taken[b] = box[0] == PCL2_NET_COUNT ? net->box[b] : net->taken[b] + 1;
+}
+
+/* Modes. */
+
+static const pcl2_net_word *net_operated(const struct pcl2_net *net)
+{
+    const int32_t at = net->table[PCL2_NET_OPERATED];
+    return at == 0 ? NULL : net->table + at;
+}
+
+/* The record of a net that has a mode of its own. */
+static const pcl2_net_word *net_modes(const struct pcl2_net *net)
+{
+    const pcl2_net_word *operated = net_operated(net);
+    return operated != NULL && operated[NET_OPERATED_MODE] != 0 ? operated : NULL;
+}
+
+static const pcl2_net_word *net_gates_in_file(const pcl2_net_word *operated)
+{
+    return operated + NET_OPERATED_STOPS + 1 + 2 * operated[NET_OPERATED_STOPS];
+}
+
+/* What a command says; it is cleared, since it is obeyed or refused. */
+static int32_t net_command(struct pcl2_net *net, const pcl2_net_word *modes, int32_t which)
+{
+    if (modes[which] == 0) {
+        return 0;
+    }
+    int32_t *word = net_word_at(net, modes[which] - 1);
+    const int32_t command = *word;
+    *word = 0;
+    return command;
+}
+
+static void net_record_command(struct pcl2_net *net, int32_t obeyed)
+{
+    pcl2_net_fault(net->status, obeyed ? PCL2_NET_FORCED : PCL2_NET_REFUSED);
+    pcl2_net_count(obeyed ? net->forced : net->refused);
+}
+
+static void net_refuse(struct pcl2_net *net, const pcl2_net_word *modes, int32_t first, int32_t last)
+{
+    for (int32_t which = first; which <= last; which++) {
+        if (net_command(net, modes, which) != 0) {
+            net_record_command(net, 0);
+        }
+    }
+}
+
+/* The mode of a scan; commands of other modes are refused. */
+static int32_t net_mode(struct pcl2_net *net, const pcl2_net_word *modes)
+{
+    const int32_t mode = *(const int32_t *)net_word_at(net, modes[NET_OPERATED_MODE] - 1);
+    int32_t go = 0;
+    if (mode == PCL2_NET_STEP) {
+        go = net_command(net, modes, NET_OPERATED_GO);
+    }
+    net_refuse(net, modes, NET_OPERATED_GO, mode == PCL2_NET_MANUAL ? NET_OPERATED_GO : NET_OPERATED_TAKE);
+    if (mode == PCL2_NET_STEP) {
+        return go != 0 ? PCL2_NET_AUTOMATIC : PCL2_NET_STEP;
+    }
+    return mode == PCL2_NET_AUTOMATIC || mode == PCL2_NET_MANUAL ? mode : PCL2_NET_STOPPED;
+}
+
+/* Outputs and what they are while the net is stopped change places: the one that is not used stands aside. */
+static void net_swap(struct pcl2_net *net, const pcl2_net_word *modes)
+{
+    const pcl2_net_word *stop = modes + NET_OPERATED_STOPS + 1;
+    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 2) {
+        const int32_t real = net->table[net->table[PCL2_NET_WORDS] + stop[0]] & 1;
+        void *aside = real ? (void *)(net->reals + stop[1]) : (void *)(net->ints + stop[1]), *word;
+        const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
+        pcl2_real kept;
+        word = net_word_at(net, stop[0]);
+        memcpy(&kept, word, size);
+        memcpy(word, aside, size);
+        memcpy(aside, &kept, size);
+    }
+}
+
+/* Takes the inputs in. A net inside has the mode and the time of the one around it unless it has a mode of its own. */
+static void net_begin(struct pcl2_net *net, int64_t now)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    const int32_t n = net->table[PCL2_NET_N_WORDS];
+    *net->status = 0;
+    net->blocked = 0;
+    net->switched = 0;
+    net->now = now;
+    net->mode = PCL2_NET_AUTOMATIC;
+    if (n != 0) {
+        memset(net->wrote, 0, (size_t)n * sizeof *net->wrote);
+    }
+    if (net->outer != NULL) {
+        (void)net->outer->act(net->outer, net->inputs);
+        net->now = net->outer->now;
+        net->mode = net->outer->mode;
+    }
+    if (modes != NULL) {
+        net->now = now - *net->stood;
+        net->mode = net_mode(net, modes);
+        if (*net->halted) {
+            net_swap(net, modes);
+        }
+    }
+}
+
+/* A stopped net shows what its outputs are meanwhile, and its time stands. */
+static void net_end(struct pcl2_net *net, int64_t period)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    if (modes == NULL) {
+        return;
+    }
+    const int32_t stopped = net->mode == PCL2_NET_STOPPED;
+    if (stopped) {
+        net_swap(net, modes);
+        *net->stood = *net->stood > INT64_MAX - period ? INT64_MAX : *net->stood + period;
+    }
+    net->switched = *net->halted != stopped;
+    *net->halted = stopped;
 }
 
 /* Statements. */
@@ -342,7 +474,6 @@ static void net_generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *b
 
 static void net_box_phase(struct pcl2_net *net)
 {
-    memset(net->wrote, 0, (size_t)net->table[PCL2_NET_N_WORDS] * sizeof *net->wrote);
     for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
         const pcl2_net_word *box = net_box_record(net, b), *more = box + 8;
         if (box[0] == PCL2_NET_GENERATION) {
@@ -636,15 +767,34 @@ static void net_move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, con
     }
 }
 
+/* What BLOCKED tells if this permissive is the first that holds a gate back. */
+static void net_tell_blocked(struct pcl2_net *net, int32_t gate, int32_t term)
+{
+    const pcl2_net_word *operated = net_operated(net);
+    if (operated != NULL && net->blocked == 0) {
+        net->blocked = net_gates_in_file(operated)[net->table[PCL2_NET_N_GATES] + gate] + term;
+    }
+}
+
 static int32_t net_permitted(struct pcl2_net *net, const pcl2_net_word *gate, const pcl2_net_word *permits,
                              int32_t index)
 {
     for (int32_t i = 0; i < gate[4]; i++) {
         if (!net_run(net, permits[i], index)) {
+            net_tell_blocked(net, index, i);
             return 0;
         }
     }
     return 1;
+}
+
+/* Fires a gate by a rule. */
+static void net_fire(struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule, int32_t index)
+{
+    for (int32_t i = 1; i <= rule->clears[0]; i++) {
+        *(int32_t *)net_word_at(net, rule->clears[i]) = 0;
+    }
+    net_move_tokens(net, gate, rule, index);
 }
 
 /* Tries a gate: the first part that is true is the part. */
@@ -661,10 +811,7 @@ static void net_try_gate(struct pcl2_net *net, int32_t index)
         at = rule.end;
         if (net_satisfied(net, &rule, index)) {
             if (net_rule_room(net, gate, &rule) && net_permitted(net, gate, permits, index)) {
-                for (int32_t j = 1; j <= rule.clears[0]; j++) {
-                    *(int32_t *)net_word_at(net, rule.clears[j]) = 0;
-                }
-                net_move_tokens(net, gate, &rule, index);
+                net_fire(net, gate, &rule, index);
             }
             net_let_go(net, &rule);
             return;
@@ -695,11 +842,10 @@ static void net_abort_part(struct pcl2_net *net, int32_t part)
     }
     const int32_t macro = record[3] - 1;
     const pcl2_net_word arc[2] = {record[5], 1};
-    struct pcl2_net *inner = net_inside(net, part);
     if (!net_room(net, arc[0], 1)) {
         return;
     }
-    net_empty(inner);
+    net_empty(net_inside(net, part));
     net_load(net, net_box_record(net, macro), 0);
     net->taken[macro] = 1;
     net_run_all(net, record + 6, 0);
@@ -713,6 +859,121 @@ static void net_gate_phase(struct pcl2_net *net)
     }
     for (int32_t i = 0; i < net->table[PCL2_NET_N_GATES]; i++) {
         net_try_gate(net, i);
+    }
+}
+
+/* Commands. */
+
+/* The part that a net is of the one around it, if it is a macro; else NULL. */
+static const pcl2_net_word *net_macro_of(const struct pcl2_net *net)
+{
+    const struct pcl2_net *outer = net->outer;
+    for (int32_t i = 0; outer != NULL && i < outer->table[outer->table[PCL2_NET_PARTS]]; i++) {
+        const pcl2_net_word *record = net_part_record(outer, i);
+        if (outer + record[2] == net) {
+            return record[3] != 0 ? record : NULL;
+        }
+    }
+    return NULL;
+}
+
+/* Whether a macro's own net lets a token be forced: it has tokens while the macro is marked and no longer, and entry and
+ * exit are the macro's own. */
+static int32_t net_within_macro(const struct pcl2_net *net, int32_t b, int32_t takes)
+{
+    const pcl2_net_word *macro = net_macro_of(net);
+    int32_t tokens = 0;
+    if (macro == NULL) {
+        return 1;
+    }
+    if (b == macro[0] || b == macro[1]) {
+        return 0;
+    }
+    for (int32_t i = 0; i < net->table[PCL2_NET_N_BOXES]; i++) {
+        tokens = pcl2_add_i(tokens, net_left(net, i) != 0 || net->filled[i] != 0 ? 1 : 0);
+    }
+    const int32_t last = tokens == 1 && net_left(net, b) + net->filled[b] == 1;
+    return takes ? !last : net_left(net->outer, macro[3] - 1) > 0;
+}
+
+/* Fires a gate whose tokens and room are there: by the rule that holds, else by the first. */
+static int32_t net_force_gate(struct pcl2_net *net, int32_t index)
+{
+    const pcl2_net_word *gate = net_record(net, PCL2_NET_GATES, index);
+    const pcl2_net_word *rules = gate + 6 + 2 * (gate[0] + gate[1]) + 3 * (gate[2] + gate[3]) + gate[4];
+    if (!net_enabled(net, gate)) {
+        return 0;
+    }
+    struct net_rule rule = net_rule_at(rules);
+    int32_t holds = net_satisfied(net, &rule, index);
+    for (int32_t i = 1; i < gate[5] && !holds; i++) {
+        net_let_go(net, &rule);
+        rule = net_rule_at(rule.end);
+        holds = net_satisfied(net, &rule, index);
+    }
+    if (!holds) {
+        net_let_go(net, &rule);
+        rule = net_rule_at(rules);
+    }
+    const int32_t fits = net_rule_room(net, gate, &rule);
+    if (fits) {
+        net_fire(net, gate, &rule, index);
+    }
+    net_let_go(net, &rule);
+    return fits;
+}
+
+/* Puts a new token into a box that has room. */
+static int32_t net_force_put(struct pcl2_net *net, int32_t b)
+{
+    const pcl2_net_word arc[2] = {(pcl2_net_word)b, 1};
+    if (!net_room(net, b, 1) || !net_within_macro(net, b, 0)) {
+        return 0;
+    }
+    net_fresh(net, net_box_record(net, b));
+    net_put(net, -1, arc, 1, 0);
+    return 1;
+}
+
+/* Takes the first token of a box. */
+static int32_t net_force_take(struct pcl2_net *net, int32_t b)
+{
+    const pcl2_net_word *box = net_box_record(net, b);
+    if (net_left(net, b) <= 0 || !net_within_macro(net, b, 1)) {
+        return 0;
+    }
+    if (box[0] == PCL2_NET_MACRO) {
+        net_empty(net_inside(net, box[8]));
+    }
+    if (box[0] == PCL2_NET_COUNT) {
+        net->taken[b] += 1;
+    } else {
+        net_remove_token(net, b, net_next_token(net, b, -1));
+    }
+    return 1;
+}
+
+/* The gate phase of a net in manual mode. */
+static void net_obey(struct pcl2_net *net)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    for (int32_t which = NET_OPERATED_FIRE; modes != NULL && which <= NET_OPERATED_TAKE; which++) {
+        const int32_t number = net_command(net, modes, which);
+        const int32_t most = net->table[which == NET_OPERATED_FIRE ? PCL2_NET_N_GATES : PCL2_NET_N_BOXES];
+        int32_t obeyed = 0;
+        if (number == 0) {
+            continue;
+        }
+        if (number < 1 || number > most) {
+            obeyed = 0;
+        } else if (which == NET_OPERATED_FIRE) {
+            obeyed = net_force_gate(net, net_gates_in_file(modes)[number - 1]);
+        } else if (which == NET_OPERATED_PUT) {
+            obeyed = net_force_put(net, number - 1);
+        } else {
+            obeyed = net_force_take(net, number - 1);
+        }
+        net_record_command(net, obeyed);
     }
 }
 
@@ -752,6 +1013,27 @@ static void net_active_box(struct pcl2_net *net, int32_t index, const pcl2_net_w
     }
 }
 
+static void net_active_boxes(struct pcl2_net *net)
+{
+    const pcl2_net_word *at = net->table + net->table[PCL2_NET_ACTIVES];
+    const int32_t n = *at++;
+    for (int32_t i = 0; i < n; i++) {
+        net_active_box(net, i, at);
+        at += 3 + at[2];
+    }
+}
+
+/* The output of BLOCKED: between steps it stays. */
+static void net_blocked(struct pcl2_net *net)
+{
+    const pcl2_net_word *operated = net_operated(net);
+    if (operated != NULL && operated[NET_OPERATED_BLOCKED] != 0 && net->mode != PCL2_NET_STEP) {
+        const int32_t word = operated[NET_OPERATED_BLOCKED] - 1;
+        *(int32_t *)net_word_at(net, word) = net->blocked;
+        pcl2_net_counted(&net->wrote[word]);
+    }
+}
+
 /* Words that a part writes take its value when it wrote it. */
 static void net_part_writes(struct pcl2_net *net, int32_t part)
 {
@@ -760,7 +1042,8 @@ static void net_part_writes(struct pcl2_net *net, int32_t part)
     writes += writes[0] + 1;
     for (int32_t i = 0; i < writes[0]; i++) {
         const int32_t output = writes[1 + 2 * i], word = writes[2 + 2 * i];
-        if (inner->wrote[output] != 0) {
+        const int32_t stops = inner->table[inner->table[PCL2_NET_WORDS] + output] & 2;
+        if (inner->wrote[output] != 0 || (inner->switched && stops)) {
             pcl2_real before;
             net_keep(net, word, &before, 0);
             net_keep(net, word, net_word_at(inner, output), 1);
@@ -788,12 +1071,10 @@ static void net_levels(struct pcl2_net *net)
         *(int32_t *)net_word_at(net, at[0]) = level;
         at = parts + 2 * parts[0] + 1;
     }
-    at = net->table + net->table[PCL2_NET_ACTIVES];
-    const int32_t actives = *at++;
-    for (int32_t i = 0; i < actives; i++) {
-        net_active_box(net, i, at);
-        at += 3 + at[2];
+    if (net->mode != PCL2_NET_STOPPED) {
+        net_active_boxes(net);
     }
+    net_blocked(net);
 }
 
 /* A net takes the status of one inside if it has none. */
@@ -807,21 +1088,24 @@ static void net_hand_out(const struct pcl2_net *net)
 void pcl2_net_scan(struct pcl2_net *nets, int32_t n, int64_t *now, int64_t period)
 {
     for (int32_t i = 0; i < n; i++) {
-        nets[i].now = *now;
-        *nets[i].status = 0;
-        if (nets[i].outer != NULL) {
-            (void)nets[i].outer->act(nets[i].outer, nets[i].inputs);
+        net_begin(&nets[i], *now);
+        if (nets[i].mode != PCL2_NET_STOPPED) {
+            net_box_phase(&nets[i]);
         }
-        net_box_phase(&nets[i]);
     }
     for (int32_t i = 0; i < n; i++) {
-        net_gate_phase(&nets[i]);
+        if (nets[i].mode == PCL2_NET_AUTOMATIC) {
+            net_gate_phase(&nets[i]);
+        } else if (nets[i].mode == PCL2_NET_MANUAL) {
+            net_obey(&nets[i]);
+        }
     }
     for (int32_t i = 0; i < n; i++) {
         net_commit(&nets[i]);
     }
     for (int32_t i = n - 1; i >= 0; i--) {
         net_levels(&nets[i]);
+        net_end(&nets[i], period);
         net_hand_out(&nets[i]);
     }
     *now = *now > INT64_MAX - period ? INT64_MAX : *now + period;

@@ -9,14 +9,15 @@ enum {
     PCL2_NET_N_BOXES,
     PCL2_NET_N_GATES,
     PCL2_NET_N_WORDS,
-    PCL2_NET_BOXES,   /* by box: where its record begins */
-    PCL2_NET_GATES,   /* by gate: where its record begins */
-    PCL2_NET_SCRIPTS, /* by statement: where its record begins */
-    PCL2_NET_CLASSES, /* by class: where its record begins */
-    PCL2_NET_WORDS,   /* by word: 1 a real, 0 an int */
-    PCL2_NET_LEVELS,  /* words that boxes drive */
-    PCL2_NET_ACTIVES, /* words that tell the marked box */
-    PCL2_NET_PARTS,   /* nets inside */
+    PCL2_NET_BOXES,    /* by box: where its record begins */
+    PCL2_NET_GATES,    /* by gate: where its record begins */
+    PCL2_NET_SCRIPTS,  /* by statement: where its record begins */
+    PCL2_NET_CLASSES,  /* by class: where its record begins */
+    PCL2_NET_WORDS,    /* by word: bit 0 a real, bit 1 it has a value of its own while the net is stopped */
+    PCL2_NET_LEVELS,   /* words that boxes drive */
+    PCL2_NET_ACTIVES,  /* words that tell the marked box */
+    PCL2_NET_PARTS,    /* nets inside */
+    PCL2_NET_OPERATED, /* modes, commands, and who is told of permissives; 0: none of them */
     PCL2_NET_HEAD
 };
 
@@ -29,6 +30,14 @@ enum {
     PCL2_NET_PROCESS,
     PCL2_NET_GENERATION,
     PCL2_NET_MACRO
+};
+
+/* Modes of a net: the values of its input. */
+enum {
+    PCL2_NET_AUTOMATIC,
+    PCL2_NET_STEP,
+    PCL2_NET_MANUAL,
+    PCL2_NET_STOPPED
 };
 
 /* A word of a table: none is negative. */
@@ -59,10 +68,17 @@ struct pcl2_net {
     int64_t *active_since;         /* by ACTIVE line: since when, nanoseconds */
     const struct pcl2_net *outer;  /* the net around it, or NULL */
     int32_t inputs;                /* the statement of the net around it that takes the inputs in */
-    int64_t now;                   /* the time of the scan, nanoseconds */
+    int64_t now;                   /* the time of the scan, nanoseconds; it stands while the net is stopped */
+    int32_t mode;                  /* of the scan; a step that was commanded is automatic */
+    int32_t blocked;               /* the first permissive term that held a gate back in this scan, from 1; 0: none */
+    int32_t switched;              /* its words changed places with those of a stopped net in this scan */
     int32_t *status;               /* the first fault of the scan */
     int32_t *lost;                 /* tokens lost since the start; stops at 2^31 - 1 */
     int32_t *conflicts;            /* writes that lost since the start; stops at 2^31 - 1 */
+    int64_t *stood;                /* of a net with modes: how long it was stopped, nanoseconds; else NULL */
+    int32_t *halted;               /* of a net with modes: it was stopped in the last scan; else NULL */
+    int32_t *forced;               /* of a net with modes: gates and tokens forced since the start; stops at 2^31 - 1 */
+    int32_t *refused;              /* of a net with modes: commands refused since the start; stops at 2^31 - 1 */
     int32_t (*act)(const struct pcl2_net *net, int32_t statement); /* runs a statement; of a condition its truth */
     int64_t (*duration)(const struct pcl2_net *net, int32_t statement); /* the value of a statement, nanoseconds */
     void *host;                    /* of those who run statements */

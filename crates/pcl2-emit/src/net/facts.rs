@@ -20,9 +20,10 @@ pub(crate) struct NetFacts {
     pub(crate) ticking: bool,
 }
 
-/// Whether a net can become code of its own: tokens without attributes.
+/// Whether a net can become code of its own: tokens without attributes, no operator.
 pub(crate) fn is_plain(net: &Net) -> bool {
-    net.boxes.iter().all(|place| place.class.is_none())
+    !net.operated()
+        && net.boxes.iter().all(|place| place.class.is_none())
         && net.touched.iter().all(|touched| plain_looks(net, &touched.looks))
 }
 

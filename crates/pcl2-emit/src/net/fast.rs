@@ -97,23 +97,15 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let n = net.net.boxes.len();
     let (readied, driven) = (readied(net.net), driven(net));
     let (mut ready, mut waiting) = (vec![0_u32; net.net.gates.len().div_ceil(32)], vec![0_u32; n.div_ceil(32)]);
-    let (mut touched, mut shown) = (waiting.clone(), waiting.clone());
+    let mut shown = waiting.clone();
     let mut drives = vec![0; net.layout.facts.levels.len()];
     for (i, gate) in net.net.gates.iter().enumerate().filter(|(_, gate)| gate.before.is_empty()) {
         let _ = gate;
         ready[i / 32] |= 1 << (i % 32);
     }
-    let early = |level: &usize| {
-        let word = &net.net.words[net.layout.facts.levels[*level]];
-        !crate::text::number(&word.initial, 0).is_zero()
-    };
     for (i, place) in net.net.boxes.iter().enumerate() {
         let (set, bit) = (i / 32, 1 << (i % 32));
         if place.initial > 0 {
-            touched[set] |= bit;
-        } else if driven[i].iter().any(early) {
-            // What START says holds until the first scan shows that the box is empty.
-            touched[set] |= bit;
             shown[set] |= bit;
             driven[i].iter().for_each(|level| drives[*level] += 1);
         }
@@ -124,7 +116,7 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
             readied[i].iter().for_each(|(set, gates)| ready[*set] |= gates);
         }
     }
-    for (name, sets) in [("ready", &ready), ("waiting", &waiting), ("touched", &touched), ("shown", &shown)] {
+    for (name, sets) in [("ready", &ready), ("waiting", &waiting), ("shown", &shown)] {
         for (i, set) in sets.iter().enumerate().filter(|(_, set)| **set != 0 && net.layout.keeps(name)) {
             let _ = writeln!(out, "    self->net.{name}[{i}] = UINT32_C(0x{set:08x});");
         }
@@ -135,7 +127,8 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
     if waiting.iter().any(|set| *set != 0) {
         out.push_str("    self->net.waits = 1;\n");
     }
-    out.push_str("    self->net.restless = 1;\n");
+    // Bit 1: outputs have what START says until the first scan shows the marking.
+    let _ = writeln!(out, "    self->net.restless = {};", if drives.is_empty() { 1 } else { 2 });
     if net.layout.keeps("inside") {
         out.push_str("    self->net.inside = 1;\n");
     }
@@ -448,15 +441,16 @@ fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
 "
         );
         out.push_str(if keeps("used") { "            self->net.used[place] = 0;\n" } else { "" });
-        begin_wait(out, net);
+        let waits = begin_wait(out, net);
         let _ = write!(
             out,
-            "            if (self->box[place] >= {tag}_places[place].full) {{
+            "{}if (self->box[place] >= {tag}_places[place].full) {{
                 {tag}_excite(self, place);
             }} else {{
                 {tag}_calm(self, place);
             }}
-"
+",
+            if waits { " else " } else { "            " }
         );
         if keeps("drives") {
             show(out, net);
@@ -478,15 +472,14 @@ fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
     out.push_str("}\n\n");
 }
 
-/// Boxes that wait begin to when a token comes; one that is empty waits no more.
-fn begin_wait(out: &mut String, net: &NetBody<'_, '_, '_>) {
-    let waiting: Vec<bool> = net.net.boxes.iter().map(waits).collect();
-    if !waiting.contains(&true) {
-        return;
+/// Boxes that wait begin to when a token comes; one that is empty waits no more. Tells whether there are any.
+fn begin_wait(out: &mut String, net: &NetBody<'_, '_, '_>) -> bool {
+    if !net.net.boxes.iter().any(waits) {
+        return false;
     }
+    let tag = net.tag();
     let by = if net.layout.keeps("by") { "self->net.by[place] << 2" } else { "0" };
-    out.push_str("            if (");
-    let _ = write!(out, "{}_places[place].full == INT32_MAX) {{\n", net.tag());
+    let _ = writeln!(out, "            if ({tag}_places[place].full == INT32_MAX) {{");
     out.push_str("                if (filled != 0) {\n");
     if net.layout.keeps("since") {
         out.push_str("                    self->net.since[place] = self->net.now;\n");
@@ -496,14 +489,14 @@ fn begin_wait(out: &mut String, net: &NetBody<'_, '_, '_>) {
         "                    self->net.phase[place] = {by};
                     pcl2_net_add(self->net.waiting, place);
                     self->net.waits = 1;
+                    {tag}_calm(self, place);
                 }} else if (self->box[place] == 0) {{
                     pcl2_net_remove(self->net.waiting, place);
-                }} else {{
-                    continue;
+                    {tag}_calm(self, place);
                 }}
-            }}
-"
+            }}"
     );
+    true
 }
 
 fn show(out: &mut String, net: &NetBody<'_, '_, '_>) {
@@ -517,6 +510,7 @@ fn show(out: &mut String, net: &NetBody<'_, '_, '_>) {
         "            const int32_t marked = self->box[place] > 0;
             if (marked != pcl2_net_in(self->net.shown, place)) {{
                 self->net.shown[set] ^= UINT32_C(1) << (place & 31);
+                self->net.restless = 1;
                 for (int32_t i = {tag}_places[place].outputs; i < {tag}_places[place + 1].outputs; i++) {{
                     const int32_t output = {tag}_drives[i];
                     self->net.drives[output] += marked ? 1 : -1;
@@ -542,6 +536,17 @@ fn levels(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
     for (part, _, _) in &parts {
         part_writes(out, net, *part);
+    }
+    if driven(net).iter().any(|list| !list.is_empty()) {
+        let n = net.layout.facts.levels.len();
+        let _ = write!(
+            out,
+            "    for (int32_t output = 0; (self->net.go & 2) != 0 && output < {n}; output++) {{
+        *(int32_t *)(void *)((char *)self + {tag}_outputs[output]) = self->net.drives[output] > 0;
+        self->net.restless = 1;
+    }}
+"
+        );
     }
     for (level, word) in net.layout.facts.levels.iter().enumerate() {
         joined(out, net, level, *word);

@@ -58,7 +58,12 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
         };
         match (tests.is_empty(), allowed.is_empty()) {
             (true, true) => fire(out, statics, INDENT),
-            (false, true) => guarded(out, &tests, |out| fire(out, statics, "                ")),
+            (false, true) => guarded(out, &tests, |out| {
+                fire(out, statics, "                ");
+                if !sole {
+                    out.push_str("                break;\n");
+                }
+            }),
             (true, false) => guarded(out, &allowed, |out| fire(out, statics, "                ")),
             (false, false) => guarded(out, &tests, |out| {
                 let _ = writeln!(out, "                if ({}) {{", allowed.join(" && "));

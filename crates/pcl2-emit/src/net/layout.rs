@@ -10,6 +10,12 @@ use pcl2_lang::net::{Kind, Net, PartId};
 use pcl2_lang::program::{Program, Role, Unit, UnitId};
 use pcl2_lang::types::Width;
 
+/// How long a net with modes was stopped.
+pub(crate) const STOOD: &str = "stood";
+
+/// What a net with modes keeps in ints.
+pub(crate) const MODE_COUNTERS: [&str; 3] = ["halted", "forced", "refused"];
+
 /// The layout of a net.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NetLayout {
@@ -87,30 +93,48 @@ pub(crate) fn layout(
 
 /// Settles the form of each net, that of a net inside going by the one around it, and what an instance keeps.
 pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) {
-    let mut part = vec![false; units.len()];
     let called = called(program, units);
+    let part = forms(program, units, form);
     for index in 1..units.len() {
         let unit = &program.units[index];
-        let (Some(net), Some(mut layout)) = (net_of(program, unit), units[index].net.take()) else {
+        let (Some(net), Some(layout)) = (net_of(program, unit), units[index].net.as_mut()) else {
             continue;
         };
-        if form == NetForm::Table {
-            layout.form = NetForm::Table;
-        }
-        for inner in (0..net.parts.len() as u32).filter_map(|i| part_unit(unit, net, PartId(i))) {
-            part[inner.0 as usize] = true;
-            if let (Some(inner), NetForm::Table) = (&mut units[inner.0 as usize].net, layout.form) {
-                inner.form = NetForm::Table;
-            }
-        }
         layout.called = called[index];
         layout.facts = facts::of(net, unit, layout.held, part[index]);
         layout.fields = match layout.form {
-            NetForm::Table => table_fields(net, &layout),
-            NetForm::Fast => fast_fields(net, &layout),
+            NetForm::Table => table_fields(net, layout),
+            NetForm::Fast => fast_fields(net, layout),
         };
-        units[index].net = Some(layout);
     }
+}
+
+/// Gives a net and those inside it one form; tells by unit whether it stands inside another net.
+fn forms(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) -> Vec<bool> {
+    let mut part = vec![false; units.len()];
+    let mut pairs = Vec::new();
+    for (outer, unit) in program.units.iter().enumerate() {
+        let Some(net) = net_of(program, unit).filter(|_| units[outer].used) else {
+            continue;
+        };
+        for inner in (0..net.parts.len() as u32).filter_map(|i| part_unit(unit, net, PartId(i))) {
+            part[inner.0 as usize] = true;
+            pairs.push((outer, inner.0 as usize));
+        }
+    }
+    let is_table = |units: &[UnitLayout<'_>], index: usize| {
+        form == NetForm::Table || units[index].net.as_ref().is_some_and(|net| net.form == NetForm::Table)
+    };
+    let mut table: Vec<bool> = (0..units.len()).map(|index| is_table(units, index)).collect();
+    while let Some((a, b)) = pairs.iter().copied().find(|(a, b)| table[*a] != table[*b]) {
+        (table[a], table[b]) = (true, true);
+    }
+    for (unit, _) in units.iter_mut().zip(table).filter(|(_, table)| *table) {
+        if let Some(net) = &mut unit.net {
+            net.form = NetForm::Table;
+        }
+    }
+    part
 }
 
 /// By unit: whether a block outside of nets stands for it.
@@ -152,6 +176,7 @@ fn table_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     let mut fields = Fields::default();
     fields.add("now", "int64_t", None);
     fields.add_if(layout.timed, "period", "int64_t", None);
+    fields.add_if(net.operation.is_some(), STOOD, "int64_t", None);
     fields.add("since", "int64_t", Some(boxes));
     fields.add("active_since", "int64_t", Some(actives));
     fields.add("reals", "pcl2_real", Some(layout.table.reals.len()));
@@ -163,6 +188,9 @@ fn table_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add("active", "int32_t", Some(actives));
     fields.add("lost", "int32_t", None);
     fields.add("conflicts", "int32_t", None);
+    for name in MODE_COUNTERS {
+        fields.add_if(net.operation.is_some(), name, "int32_t", None);
+    }
     fields.scratch(layout);
     fields.0
 }

@@ -140,7 +140,7 @@ pub(crate) fn tune(out: &mut String, net: &NetBody<'_, '_, '_>) {
         out.push_str("    self->net.period = T;\n");
     }
     if net.layout.keeps("restless") {
-        out.push_str("    self->net.restless = 1;\n");
+        out.push_str("    self->net.restless |= 1;\n");
     }
 }
 
@@ -181,11 +181,11 @@ fn take_arguments(out: &mut String, net: &NetBody<'_, '_, '_>, indent: &str) {
     commands(out, net, net.scope(), indent);
 }
 
-/// Commands go to the words that gates clear.
+/// Commands go to the words that gates clear, and the mode to one of its own.
 fn commands(out: &mut String, net: &NetBody<'_, '_, '_>, scope: Scope<'_>, indent: &str) {
-    for (port, word) in &net.net.momentary {
+    for (port, word) in net.net.latched() {
         let mut from = String::new();
-        expr::signal_value(&mut from, net.body.cx, scope, SignalId(*port), 0);
+        expr::signal_value(&mut from, net.body.cx, scope, SignalId(port), 0);
         let _ = writeln!(out, "{indent}{} = {from};", net.word(word.0 as usize, scope));
     }
 }

@@ -188,9 +188,9 @@ pub(super) fn inputs_of(statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: 
         call.source(&mut from, statics, port as usize, signal.ty);
         inputs.push(Input { to: place(SignalId(i as u32)), from, ty: signal.ty });
     }
-    for (port, word) in &inside.net.momentary {
+    for (port, word) in inside.net.latched() {
         let to = inside.word(word.0 as usize, scope);
-        inputs.push(Input { to, from: place(SignalId(*port)), ty: Type::INT });
+        inputs.push(Input { to, from: place(SignalId(port)), ty: Type::INT });
     }
     inputs
 }

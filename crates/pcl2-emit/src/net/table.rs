@@ -1,6 +1,7 @@
 //! The table form: the player of the runtime walks a table, and calls back for statements.
 
 use super::NetBody;
+use super::layout::{MODE_COUNTERS, STOOD};
 use super::statements::{self, Use};
 use crate::expr::Scope;
 use crate::layout::WHOLE;
@@ -135,6 +136,12 @@ fn hand(out: &mut String, net: &NetBody<'_, '_, '_>) {
         };
     }
     out.push_str("    net->outer = NULL;\n    net->inputs = 0;\n    net->now = 0;\n    net->status = &self->status;\n");
+    for member in [STOOD].into_iter().chain(MODE_COUNTERS) {
+        let _ = match kept(member) {
+            true => writeln!(out, "    net->{member} = &self->net.{member};"),
+            false => writeln!(out, "    net->{member} = NULL;"),
+        };
+    }
     out.push_str("    net->lost = &self->net.lost;\n    net->conflicts = &self->net.conflicts;\n");
     let _ = writeln!(out, "    net->act = {tag}_act;\n    net->duration = {tag}_duration;\n    net->host = NULL;");
     let mut distance = 1;

@@ -1,6 +1,8 @@
 //! A net as the table that the player of the runtime walks (`runtime-c/include/pcl2_net.h`).
 
-use super::{Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Tested};
+use super::{
+    Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Tested, WordId,
+};
 use crate::types::{Real, Scalar, Value};
 
 /// A net as a table, and what an instance keeps beside.
@@ -17,7 +19,7 @@ pub struct Table {
 }
 
 /// How many words stand at the start: the player's `PCL2_NET_HEAD`.
-const HEAD: usize = 11;
+const HEAD: usize = 12;
 
 /// The entries of the head that are no counts, in order.
 #[derive(Clone, Copy)]
@@ -30,6 +32,7 @@ enum List {
     Levels,
     Actives,
     Parts,
+    Operated,
 }
 
 /// Makes the table of a net. `inner` gives the net of each part, and of how many nets it is made, itself included.
@@ -41,12 +44,12 @@ pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<(&'a Net, usize)>) 
     builder.records(List::Boxes, net.boxes.len(), |builder, i| builder.place(&net.boxes[i]));
     builder.records(List::Gates, net.gates.len(), |builder, i| builder.gate(&net.gates[i]));
     builder.records(List::Scripts, net.touched.len(), |builder, i| builder.script(i));
-    builder.start(List::Words);
-    for word in &net.words {
-        builder.push([i32::from(word.scalar == Scalar::Real)]);
-    }
+    builder.kept_words();
     builder.levels();
     builder.actives();
+    if net.operated() {
+        builder.operated();
+    }
     builder.start(List::Parts);
     builder.push([count(net.parts.len())]);
     let first = builder.reserve(net.parts.len());
@@ -224,6 +227,40 @@ impl Builder<'_> {
         self.boxes(&touched.looks);
     }
 
+    fn kept_words(&mut self) {
+        self.start(List::Words);
+        for word in &self.net.words {
+            self.push([i32::from(word.scalar == Scalar::Real)]);
+        }
+        let first = self.table.words[List::Words as usize] as usize;
+        for (word, _) in self.net.operation.iter().flat_map(|operation| &operation.stops) {
+            self.table.words[first + word.0 as usize] |= 2;
+        }
+    }
+
+    /// Modes, commands, and the numbers of permissive terms. What a word is while the net is stopped stands behind the
+    /// attributes of tokens.
+    fn operated(&mut self) {
+        self.start(List::Operated);
+        let optional = |word: Option<WordId>| word.map_or(0, |word| word.0 as i32 + 1);
+        self.push([optional(self.net.blocked)]);
+        let operation = self.net.operation.as_ref();
+        self.push([optional(operation.map(|operation| operation.mode.1))]);
+        self.push(operation.map_or([None; 4], |operation| operation.commands).map(optional));
+        let stops = operation.map_or(&[][..], |operation| &operation.stops);
+        self.push([count(stops.len())]);
+        for (word, value) in stops {
+            let place = match value {
+                Value::Int(value) => pushed(&mut self.table.ints, *value),
+                Value::Real(value) => pushed(&mut self.table.reals, *value),
+                Value::Ints(_) | Value::Reals(_) | Value::Text(_) => 0,
+            };
+            self.push([word.0 as i32, place]);
+        }
+        self.table.words.extend(self.net.numbered.iter().map(|gate| gate.0 as i32));
+        self.table.words.extend(self.net.first_terms().iter().map(|term| *term as i32));
+    }
+
     fn levels(&mut self) {
         self.start(List::Levels);
         let levels = |net: &Net| {
@@ -282,6 +319,12 @@ impl Builder<'_> {
         self.push([count(part.writes.len())]);
         self.table.words.extend(part.writes.iter().flat_map(|(output, word)| [*output as i32, word.0 as i32]));
     }
+}
+
+/// Adds a value to a list, and tells its place there.
+fn pushed<T>(list: &mut Vec<T>, value: T) -> i32 {
+    list.push(value);
+    count(list.len() - 1)
 }
 
 fn optional(statement: Option<StatementId>) -> i32 {

@@ -130,7 +130,7 @@ impl Dice {
     }
 }
 
-/// Steps of all walks together.
+/// Steps of all walks together, where going back to the initial marking counts as steps.
 const STEPS: usize = 200_000;
 /// Steps of one walk.
 const WALK: usize = 400;
@@ -141,8 +141,9 @@ pub(super) fn expected(rules: &Rules, initial: &[u64]) -> Vec<u64> {
     let mut most = initial.to_vec();
     let mut game = Game::new(rules, initial);
     let mut dice = Dice::new(1);
-    let steps = WALK.min(STEPS / rules.places.max(1));
-    for place in 0..rules.places {
+    let steps = WALK.min(STEPS / rules.places.max(1)).max(1);
+    let back = (rules.places + rules.list.len()) / 8;
+    for place in (0..rules.places).take(STEPS / (steps + back)) {
         for _ in 0..steps {
             let Some(transition) = sparing(&game, place, &mut dice) else { break };
             if !game.fire(transition) {

@@ -12,30 +12,64 @@ pub(super) struct Interleaving<'a> {
     rules: &'a Rules,
     layout: &'a Layout,
     guards: Guards,
-    changes: Changes,
+    pub(super) changes: Changes,
     /// Passed where no transition can overflow a field.
     headroom: Guards,
     kept: Vec<u64>,
     blocked: Vec<u64>,
-    enabled: Vec<u32>,
+    /// What [`Interleaving::look`] found.
+    pub(super) enabled: Vec<u32>,
 }
 
 impl<'a> Interleaving<'a> {
     /// Packs the rules.
     pub(super) fn new(rules: &'a Rules, layout: &'a Layout, bounds: &[Option<u64>]) -> Interleaving<'a> {
-        let mut guards = Guards::new(rules.list.len());
-        for (transition, rule) in rules.list.iter().enumerate() {
-            guards.at_least(layout, transition, &rule.lower());
-            guards.at_most(layout, transition, &rule.upper());
-            if rule.never {
-                guards.forbid(transition);
-            }
-        }
-        guards.sort();
+        let guards = guards(rules, layout);
         let changes = Changes::new(rules, layout, layout.key);
         let headroom = headroom(rules, layout, bounds, u64::max);
         let kept = kept(rules);
         Interleaving { rules, layout, kept, guards, changes, headroom, blocked: Vec::new(), enabled: Vec::new() }
+    }
+}
+
+/// What each transition alone asks of a marking.
+pub(super) fn guards(rules: &Rules, layout: &Layout) -> Guards {
+    let mut guards = Guards::new(rules.list.len());
+    for (transition, rule) in rules.list.iter().enumerate() {
+        guards.at_least(layout, transition, &rule.lower());
+        guards.at_most(layout, transition, &rule.upper());
+        if rule.never {
+            guards.forbid(transition);
+        }
+    }
+    guards.sort();
+    guards
+}
+
+impl Interleaving<'_> {
+    /// Finds the enabled transitions of a marking.
+    #[inline(always)]
+    pub(super) fn look(&mut self, words: &[u64]) -> Result<(), Halt> {
+        self.headroom.blocked(words, &mut self.blocked);
+        let tight = self.blocked[0] != 0;
+        self.guards.enabled(words, &mut self.blocked, &mut self.enabled);
+        if tight {
+            for transition in &self.enabled {
+                overflow(self.rules, self.layout, *transition, words)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The key after the enabled transition that is chosen; its own if none is.
+    #[inline(always)]
+    pub(super) fn one<K: Words, F: Words>(&mut self, from: &F, key: &mut K, choice: impl Fn(&[u32]) -> Option<u32>) {
+        let words = from.words();
+        self.guards.enabled(words, &mut self.blocked, &mut self.enabled);
+        key.words_mut().copy_from_slice(&words[..K::length(self.layout.key)]);
+        if let Some(chosen) = choice(&self.enabled) {
+            self.changes.fire(chosen, key.words_mut());
+        }
     }
 }
 
@@ -76,14 +110,7 @@ impl Moves for Interleaving<'_> {
         to: &mut impl FnMut(&[u64], &[u32], u64) -> Result<(), Halt>,
     ) -> Result<u64, Halt> {
         let words = from.words();
-        self.headroom.blocked(words, &mut self.blocked);
-        let tight = self.blocked[0] != 0;
-        self.guards.enabled(words, &mut self.blocked, &mut self.enabled);
-        if tight {
-            for transition in &self.enabled {
-                overflow(self.rules, self.layout, *transition, words)?;
-            }
-        }
+        self.look(words)?;
         let mut key = K::zeros(self.layout.key);
         let all = self.enabled.iter().fold(0, |all, t| all | 1_u64.checked_shl(*t).unwrap_or(0));
         for transition in &self.enabled {

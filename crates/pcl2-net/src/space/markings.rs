@@ -121,6 +121,19 @@ impl Markings {
         all
     }
 
+    /// The numbers of the keys that wait, in their order; 0 of one that was not found. Forgets the keys.
+    pub(super) fn numbers<K: Words>(&self, batch: &mut Batch, numbers: &mut Vec<u32>) {
+        self.look_up::<K>(batch);
+        for at in 0..batch.len() {
+            let number = match batch.entries[at] {
+                0 => self.search::<K>(batch.key::<K>(at, self.stride), batch.hashes[at], batch.slots[at] as usize).0,
+                number => number,
+            };
+            numbers.push(number);
+        }
+        batch.clear();
+    }
+
     /// Finds most keys: their numbers, and where the search for the others goes on.
     #[inline(always)]
     fn look_up<K: Words>(&self, batch: &mut Batch) {

@@ -1,7 +1,10 @@
 //! What leads from one packed marking to the next ones.
 
+use super::interleaving::Interleaving;
 use super::layout::Layout;
 use super::rules::Rules;
+use super::steps::Steps;
+use super::stubborn::Stubborn;
 use super::words::Words;
 
 /// Why no further move is looked at.
@@ -22,6 +25,51 @@ pub(super) trait Moves {
         skip: u64,
         to: &mut impl FnMut(&[u64], &[u32], u64) -> Result<(), Halt>,
     ) -> Result<u64, Halt>;
+}
+
+/// Which moves are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// All of the interleaving semantics.
+    Interleaving,
+    /// Those of them that reach all dead markings.
+    Stubborn,
+    /// All of the step semantics.
+    Steps,
+}
+
+/// The moves of any kind.
+#[derive(Debug)]
+pub(super) enum AnyMoves<'a> {
+    Interleaving(Interleaving<'a>),
+    Stubborn(Stubborn<'a>),
+    Steps(Steps<'a>),
+}
+
+impl<'a> AnyMoves<'a> {
+    /// Packs the rules.
+    pub(super) fn new(kind: Kind, rules: &'a Rules, layout: &'a Layout, bounds: &[Option<u64>]) -> AnyMoves<'a> {
+        match kind {
+            Kind::Interleaving => AnyMoves::Interleaving(Interleaving::new(rules, layout, bounds)),
+            Kind::Stubborn => AnyMoves::Stubborn(Stubborn::new(rules, layout, bounds)),
+            Kind::Steps => AnyMoves::Steps(Steps::new(rules, layout, bounds)),
+        }
+    }
+}
+
+impl Moves for AnyMoves<'_> {
+    fn each<K: Words, F: Words>(
+        &mut self,
+        from: &F,
+        skip: u64,
+        to: &mut impl FnMut(&[u64], &[u32], u64) -> Result<(), Halt>,
+    ) -> Result<u64, Halt> {
+        match self {
+            AnyMoves::Interleaving(moves) => moves.each::<K, F>(from, skip, to),
+            AnyMoves::Stubborn(moves) => moves.each::<K, F>(from, skip, to),
+            AnyMoves::Steps(moves) => moves.each::<K, F>(from, skip, to),
+        }
+    }
 }
 
 /// What each transition adds to the words of a marking.

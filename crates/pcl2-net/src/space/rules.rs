@@ -26,12 +26,17 @@ pub(super) struct Rule {
     pub(super) change: Vec<(usize, i64)>,
     /// It can never fire: it puts more than a capacity.
     pub(super) never: bool,
+    /// It may let a scan pass.
+    pub(super) free: bool,
+    /// At most one transition of a gate fires in a scan.
+    pub(super) gate: usize,
 }
 
 impl Rules {
     /// The rules of a net.
     pub(super) fn new(net: &PtNet) -> Rules {
-        let list = net.transitions.iter().map(|transition| Rule::new(net, transition)).collect();
+        let mut list: Vec<Rule> = net.transitions.iter().map(|transition| Rule::new(net, transition)).collect();
+        number_gates(&mut list);
         Rules { list, places: net.places.len(), capacities: net.places.iter().map(|place| place.capacity).collect() }
     }
 }
@@ -43,6 +48,8 @@ impl Rule {
             reads: pairs(&transition.reads),
             below: transition.inhibits.iter().map(|arc| (index(arc), arc.weight.saturating_sub(1))).collect(),
             never: transition.inhibits.iter().any(|arc| arc.weight == 0),
+            free: transition.free,
+            gate: transition.gate as usize,
             ..Rule::default()
         };
         for arc in &transition.puts {
@@ -67,6 +74,14 @@ impl Rule {
     pub(super) fn upper(&self) -> Vec<(usize, u64)> {
         merged(&self.below, &self.room, u64::min)
     }
+}
+
+/// Numbers the gates from 0 without a gap.
+fn number_gates(list: &mut [Rule]) {
+    let mut gates: Vec<usize> = list.iter().map(|rule| rule.gate).collect();
+    gates.sort_unstable();
+    gates.dedup();
+    list.iter_mut().for_each(|rule| rule.gate = gates.partition_point(|gate| *gate < rule.gate));
 }
 
 fn index(arc: &Arc) -> usize {

@@ -12,7 +12,16 @@ use std::collections::VecDeque;
 const MOVES_A_MARKING: u64 = 1000;
 
 /// Markings between two calls of the progress callback.
-const STRIDE: usize = 1 << 16;
+pub(super) const STRIDE: usize = 1 << 16;
+
+/// Where a search stops before all is found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// At so many markings.
+    pub(super) limit: usize,
+    /// At a dead marking.
+    pub(super) at_dead: bool,
+}
 
 /// What a search found.
 #[derive(Clone, Debug)]
@@ -31,8 +40,9 @@ pub(super) struct Found {
     pub(super) most: Vec<u64>,
     /// All reachable markings were found, and all their moves.
     pub(super) complete: bool,
-    /// The next marking to look at.
+    /// The next marking to look at, and the last one of its level.
     next: usize,
+    level_end: usize,
     skips: VecDeque<u64>,
     pub(super) explored: u64,
     pub(super) bounds: Vec<Option<u64>>,
@@ -67,12 +77,21 @@ impl Found {
             most: initial.to_vec(),
             complete: false,
             next: 1,
+            level_end: 1,
             skips,
             explored: 0,
             bits,
             dependences,
             bounds,
         }
+    }
+
+    /// The initial marking.
+    pub(super) fn initial(&self) -> Vec<u64> {
+        let (mut full, mut marking) = (vec![0; self.layout.words], vec![0; self.layout.fields.len()]);
+        load::<Vec<u64>, Vec<u64>>(&self.markings, &self.layout, 1, &mut full);
+        self.layout.unpack(&full, &mut marking);
+        marking
     }
 
     /// Makes a place's field wide enough. Whether that can be done.
@@ -87,14 +106,14 @@ impl Found {
         true
     }
 
-    /// Goes on until all is found, the limit is reached (`Enough`) or a field is too narrow.
+    /// Goes on until all is found, enough is (`Enough`) or a field is too narrow.
     pub(super) fn run<K: Words, F: Words>(
         &mut self,
         moves: &mut impl Moves,
-        limit: usize,
+        stop: Stop,
         progress: &mut dyn FnMut(u64),
     ) -> Result<(), Halt> {
-        let limit = limit.clamp(1, MOST_MARKINGS);
+        let limit = stop.limit.clamp(1, MOST_MARKINGS);
         let most_edges = (limit as u64).saturating_mul(MOVES_A_MARKING);
         let layout = self.layout.clone();
         let mut high = High::new(&layout, &self.most);
@@ -104,15 +123,14 @@ impl Found {
         let insert = |batch: &mut Batch, markings: &mut Markings, skips: &mut VecDeque<u64>| {
             if markings.insert::<K>(batch, limit, skips) { Ok(()) } else { Err(Halt::Enough) }
         };
-        let mut level_end = markings.count();
         loop {
-            if self.next > level_end {
+            if self.next > self.level_end {
                 insert(&mut batch, markings, skips)?;
                 if self.next > markings.count() {
                     break;
                 }
-                self.levels.push(level_end + 1);
-                level_end = markings.count();
+                self.levels.push(self.level_end + 1);
+                self.level_end = markings.count();
             }
             load::<K, F>(markings, &layout, self.next, &mut from);
             high.see(&layout, from.words());
@@ -140,6 +158,9 @@ impl Found {
             if moves == 0 {
                 self.dead += 1;
                 self.first_dead.get_or_insert(self.next);
+                if stop.at_dead {
+                    return insert(&mut batch, markings, skips).and(Err(Halt::Enough));
+                }
             }
             if self.next % STRIDE == 0 {
                 progress(markings.count() as u64);

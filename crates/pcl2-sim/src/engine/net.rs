@@ -55,7 +55,8 @@ impl<'a> Store<'a> {
         let real = width_of(Scalar::Real, self.program.width);
         let sizes =
             [boxes, boxes, boxes, boxes, boxes, boxes, boxes * 2, table.ints.len() * 4, table.reals.len() * real];
-        for bytes in sizes.into_iter().chain([words, actives * 4, actives * 8, 4, 4]) {
+        let modes: &[usize] = if net.operation.is_some() { &[8, 4, 4, 4] } else { &[] };
+        for bytes in sizes.into_iter().chain([words, actives * 4, actives * 8, 4, 4]).chain(modes.iter().copied()) {
             arrays.push(Slot { at: self.take(bytes.max(8))?, bytes: bytes.max(8) });
         }
         for (i, value) in table.ints.iter().enumerate() {

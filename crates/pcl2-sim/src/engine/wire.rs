@@ -268,8 +268,8 @@ impl<'a, 'b> Wiring<'a, 'b> {
             return Ok(());
         };
         let held = inner.signals.iter().position(|signal| signal.role == Role::Held).unwrap_or(0);
-        for (port, word) in &net.momentary {
-            let (from, to) = (body.signals[*port as usize], body.signals[held + word.0 as usize]);
+        for (port, word) in net.latched() {
+            let (from, to) = (body.signals[port as usize], body.signals[held + word.0 as usize]);
             self.plan.tape(Tape::Step).push(Op::Copy { from, to, bytes: 4 });
         }
         Ok(())

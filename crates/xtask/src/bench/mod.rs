@@ -6,6 +6,7 @@ mod compare;
 mod front;
 mod kernels;
 mod m4;
+mod nets;
 mod run;
 mod scan;
 mod sources;
@@ -48,6 +49,8 @@ enum Area {
     Kernels,
     /// Size and instruction counts on a Cortex-M4
     M4,
+    /// Scans, code and compile time of nets
+    Nets,
     /// Speed of `run`
     Run,
 }
@@ -78,6 +81,7 @@ fn measure(area: Area, tools: &Tools, table: &mut Table) -> Result<(), String> {
         Area::Scan => scan::measure(tools, table),
         Area::Kernels => kernels::measure(tools, table),
         Area::M4 => m4::measure(tools, table),
+        Area::Nets => nets::measure(tools, table),
         Area::Run => run::measure(tools, table),
     }
 }
@@ -89,6 +93,7 @@ fn name(area: Area) -> &'static str {
         Area::Scan => "scan",
         Area::Kernels => "kernels",
         Area::M4 => "m4",
+        Area::Nets => "nets",
         Area::Run => "run",
     }
 }
