@@ -23,6 +23,13 @@ static inline int64_t pcl2_net_seconds(int32_t seconds)
     return seconds > 0 ? seconds * INT64_C(1000000000) : 0;
 }
 
+/* Whether a time is over, nanoseconds. What the reals cannot tell from it is over too, so that a box in float is excited
+ * in the same scan as one in double. */
+static inline int32_t pcl2_net_over(int64_t passed, int64_t time)
+{
+    return passed >= time - (time >> (PCL2_FRACTION_BITS - 1));
+}
+
 /* The place of the lowest bit of a set that is not empty. */
 static inline int32_t pcl2_net_lowest(uint32_t set)
 {

@@ -67,7 +67,7 @@ fn the_system_has_the_size_of_the_papers() {
     }
 }
 
-/// What a vehicle does, in order: the scan, and what.
+/// What a vehicle does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Deed {
     /// Through a zone, so many stations far.
@@ -77,6 +77,7 @@ enum Deed {
     Charge,
 }
 
+/// What a vehicle does, scan by scan.
 struct Trip(Vec<(usize, Deed)>);
 
 fn trace() -> Table {
@@ -90,9 +91,9 @@ fn deeds(trace: &Table, vehicle: usize) -> Trip {
     let (load, unload, charge) = (column("S.load"), column("S.unload"), column("S.charge"));
     let mut deeds = Vec::new();
     let begins = |signal: &[f64], k: usize| signal[k] > 0.0 && signal[k - 1] == 0.0;
-    for k in 1..word.len() {
+    for (k, word) in word.iter().enumerate().skip(1) {
         if begins(&runs, k) {
-            deeds.push((k, Deed::Run(word[k] as usize / 100, word[k] as usize % 10)));
+            deeds.push((k, Deed::Run(*word as usize / 100, *word as usize % 10)));
         }
         for (signal, deed) in [(&load, Deed::Load), (&unload, Deed::Unload), (&charge, Deed::Charge)] {
             if begins(signal, k) {

@@ -201,6 +201,24 @@ END
     }
 }
 
+/// 15 s are no number of whole nanoseconds in float, and still over after 15 s.
+#[test]
+fn a_time_ends_in_the_same_scan_in_float() {
+    let net = "int q = waits ( real t : )
+STATE go MARKED
+TIME a t
+STATE end DRIVES q
+GATE g1 : go -> a
+GATE g2 : a -> end
+END
+";
+    for real in ["f64", "f32"] {
+        let args = ["--steps", "34", "--period", "0.5", "--real", real];
+        let trace = traced(&[("waits.net", net)], "k,t\n0,15.\n", &args);
+        assert_eq!(column(&trace, "q").iter().position(|q| *q > 0.), Some(30), "{real}");
+    }
+}
+
 /// A counting box is full after its number of tokens, and a token that it gives empties it.
 #[test]
 fn a_counting_box_counts() {

@@ -422,6 +422,12 @@ static void net_finish(struct pcl2_net *net, int32_t b, const pcl2_net_word *aft
     net_set_phase(net, b, ready ? PCL2_NET_READY : PCL2_NET_RUNNING);
 }
 
+/* Whether a box has had its token for the time that a statement gives. */
+static int32_t net_has_passed(const struct pcl2_net *net, int32_t b, int32_t statement)
+{
+    return pcl2_net_over(net->now - net->since[b], net->duration(net, statement));
+}
+
 static void net_process(struct pcl2_net *net, int32_t b, const pcl2_net_word *more)
 {
     const pcl2_net_word *enter = more + 2, *after = enter + enter[0] + 1;
@@ -435,7 +441,7 @@ static void net_process(struct pcl2_net *net, int32_t b, const pcl2_net_word *mo
         return;
     }
     const int32_t complete = more[0] == 0 || net_run(net, more[0] - 1, 0);
-    const int32_t late = more[1] != 0 && net->now - net->since[b] >= net->duration(net, more[1] - 1);
+    const int32_t late = more[1] != 0 && net_has_passed(net, b, more[1] - 1);
     if (complete || late) {
         net_finish(net, b, after, !complete);
     }
@@ -483,8 +489,7 @@ static void net_box_phase(struct pcl2_net *net)
             continue;
         }
         if (box[0] == PCL2_NET_TIME) {
-            const int64_t time = net->duration(net, more[0]);
-            net_set_phase(net, b, net->now - net->since[b] >= time ? PCL2_NET_DONE : PCL2_NET_NEW);
+            net_set_phase(net, b, net_has_passed(net, b, more[0]) ? PCL2_NET_DONE : PCL2_NET_NEW);
         } else if (box[0] == PCL2_NET_ACTION && (net->phase[b] & 3) == PCL2_NET_NEW) {
             net_run_all(net, more, net->phase[b] >> 2);
             net_set_phase(net, b, PCL2_NET_DONE);

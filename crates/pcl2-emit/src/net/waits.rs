@@ -80,9 +80,14 @@ fn is_constant(net: &NetBody<'_, '_, '_>, statement: StatementId) -> bool {
     block.ports.iter().all(|source| matches!(source, pcl2_lang::program::Source::Constant(_)))
 }
 
+/// Whether a box has had its token for a time.
+fn over(name: &str, time: &str) -> String {
+    format!("pcl2_net_over(self->net.now - self->net.since[{name}], {time})")
+}
+
 fn time(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, time: StatementId, name: &str) {
     let value = statements::time(out, statics, net, time, INNER);
-    let passed = format!("self->net.now - self->net.since[{name}] >= {value}");
+    let passed = over(name, &value);
     if is_constant(net, time) {
         let _ = writeln!(out, "{INNER}if ({passed}) {{");
         excite(out, net, name, "PCL2_NET_DONE", "                    ");
@@ -122,7 +127,7 @@ fn process(
     let late = match process.within {
         Some(within) => {
             let value = statements::time(out, statics, net, within, INNER);
-            format!("self->net.now - self->net.since[{name}] >= {value}")
+            over(name, &value)
         }
         None => "0".to_owned(),
     };
