@@ -6,10 +6,9 @@ mod report;
 use crate::console;
 use crate::outcome::Outcome;
 use crate::project::read_regular;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use pcl2_net::pnml;
 use pcl2_net::pt::PtNet;
-use pcl2_net::space::Semantics;
 use std::path::{Path, PathBuf};
 
 /// What is asked of a net.
@@ -27,30 +26,12 @@ pub(crate) struct AnalyzeArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
-    /// What may happen at once; by default one transition
-    #[arg(long, value_enum, value_name = "step|interleaving")]
-    pub(crate) semantics: Option<Choice>,
+    /// What may happen at once; by default step for a .net file, interleaving for others
+    #[arg(long, value_name = "step|interleaving")]
+    pub(crate) semantics: Option<analyze::Choice>,
     /// The most markings that are looked at; by default what fits into half the free memory
     #[arg(long, value_name = "N")]
     pub(crate) limit: Option<usize>,
-}
-
-/// What may happen at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Choice {
-    /// All that fires in one scan
-    Step,
-    /// One transition
-    Interleaving,
-}
-
-impl Choice {
-    fn semantics(self) -> Semantics {
-        match self {
-            Choice::Step => Semantics::Step,
-            Choice::Interleaving => Semantics::Interleaving,
-        }
-    }
 }
 
 /// Runs a command.
