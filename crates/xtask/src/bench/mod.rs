@@ -6,9 +6,11 @@ mod compare;
 mod front;
 mod kernels;
 mod m4;
+mod nets;
 mod run;
 mod scan;
 mod sources;
+mod space;
 mod table;
 mod tools;
 
@@ -50,6 +52,8 @@ enum Area {
     M4,
     /// Speed of `run`
     Run,
+    /// Speed and memory of `net analyze`
+    Space,
 }
 
 /// Measures, and prints the table to standard output.
@@ -79,6 +83,7 @@ fn measure(area: Area, tools: &Tools, table: &mut Table) -> Result<(), String> {
         Area::Kernels => kernels::measure(tools, table),
         Area::M4 => m4::measure(tools, table),
         Area::Run => run::measure(tools, table),
+        Area::Space => space::measure(tools, table),
     }
 }
 
@@ -90,5 +95,6 @@ fn name(area: Area) -> &'static str {
         Area::Kernels => "kernels",
         Area::M4 => "m4",
         Area::Run => "run",
+        Area::Space => "space",
     }
 }
