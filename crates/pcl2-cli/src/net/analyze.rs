@@ -34,7 +34,7 @@ impl Choice {
 pub(crate) fn analyze(net: &PtNet, args: &AnalyzeArgs) -> Outcome {
     let usual = if is_net(&args.path) { Choice::Step } else { Choice::Interleaving };
     let semantics = args.semantics.unwrap_or(usual).semantics();
-    let limit = args.limit.map_or(Limit::Bytes(free_memory() / 2), Limit::Markings);
+    let limit = args.limit.map_or_else(|| Limit::bytes(free_memory() / 2), Limit::markings);
     let bar = bar();
     let analysis = analysis::analyze(net, semantics, limit, &mut |markings| bar.set_position(markings));
     bar.finish_and_clear();
