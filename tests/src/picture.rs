@@ -69,17 +69,17 @@ pub fn diagram(svg: &str) -> Diagram {
     found
 }
 
-fn number(node: Node<'_, '_>, name: &str) -> i32 {
+pub(crate) fn number(node: Node<'_, '_>, name: &str) -> i32 {
     node.attribute(name).and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{name} of {node:?}"))
 }
 
-fn area(node: Node<'_, '_>) -> Area {
+pub(crate) fn area(node: Node<'_, '_>) -> Area {
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|name| number(node, name));
     [x, y, x + width, y + height]
 }
 
 /// `M3 4..`: the point and what follows.
-fn start(data: &str) -> ((i32, i32), &str) {
+pub(crate) fn start(data: &str) -> ((i32, i32), &str) {
     let data = data.strip_prefix('M').expect("a path begins with M");
     let end = data.find(char::is_alphabetic).unwrap_or(data.len());
     let (x, y) = data[..end].split_once(' ').expect("two coordinates");

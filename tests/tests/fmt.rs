@@ -2,8 +2,9 @@
 
 use pcl2_cfg::{Input, Options, Tunable};
 use pcl2_lang::catalogue::Catalogue;
+use pcl2_lang::declare;
 use pcl2_lang::diagnostic::Diagnostic;
-use pcl2_lang::format::format;
+use pcl2_lang::format::{format, format_net};
 use pcl2_lang::source::Sources;
 use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax;
@@ -154,6 +155,146 @@ fn so_is_the_example_of_the_page() {
     let examples = fences(section(&page, "Layout").unwrap());
     assert_eq!(examples.len(), 1);
     assert_eq!(formatted(examples[0].text.as_bytes()).as_deref(), Some(examples[0].text.as_bytes()));
+}
+
+/// What the lines of a net say, without places; `None` when it has errors.
+fn lines_of_net(bytes: &[u8]) -> Option<String> {
+    let (mut sources, mut diagnostics) = (Sources::default(), Vec::new());
+    let file = sources.add("a.net", bytes.to_vec());
+    let read = declare::net::read(&sources, file, "a", &mut Symbols::default(), &mut diagnostics)?;
+    // Another name than the file's is no mistake of syntax.
+    let clean = diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count() <= 1;
+    (clean && !read.lines.is_empty())
+        .then(|| without_places(&format!("{:?} {:?} {}", read.decl, read.lines, read.sound)))
+}
+
+fn formatted_net(bytes: &[u8]) -> Vec<u8> {
+    let mut sources = Sources::default();
+    let file = sources.add("a.net", bytes.to_vec());
+    format_net(sources.file(file)).expect("a net without mistakes has a layout")
+}
+
+/// Complains when the layout of a net is not stable, or says something else.
+fn judge_net(name: &str, bytes: &[u8], complaints: &mut Vec<String>) -> bool {
+    let Some(before) = lines_of_net(bytes) else {
+        return false;
+    };
+    let once = formatted_net(bytes);
+    let shown = String::from_utf8_lossy(&once);
+    if formatted_net(&once) != once {
+        complaints.push(format!("{name}: not stable:\n{shown}"));
+    }
+    if lines_of_net(&once) != Some(before) {
+        complaints.push(format!("{name}: another meaning:\n{}\n{shown}", String::from_utf8_lossy(bytes)));
+    }
+    true
+}
+
+/// The nets in files and on pages, with their names.
+fn nets() -> Vec<(String, Vec<u8>)> {
+    let mut nets = Vec::new();
+    for folder in ["tests", "examples", "docs"] {
+        let found = files(&root().join(folder), "net");
+        nets.extend(found.iter().map(|path| (path.display().to_string(), read(path))));
+    }
+    for page in files(&root().join("docs"), "md") {
+        let text = fs::read_to_string(&page).unwrap();
+        let named = fences(&text).into_iter().filter(|fence| fence.file.as_ref().is_some_and(|n| n.ends_with(".net")));
+        nets.extend(named.map(|fence| (format!("{}:{}", page.display(), fence.line), fence.text.into_bytes())));
+    }
+    assert!(nets.len() > 20, "only {} nets", nets.len());
+    nets
+}
+
+#[test]
+fn every_net_keeps_its_lines() {
+    let mut complaints = Vec::new();
+    let judged = nets().iter().filter(|(name, bytes)| judge_net(name, bytes, &mut complaints)).count();
+    assert!(judged > 15, "only {judged}");
+    none(&complaints);
+}
+
+#[test]
+fn changed_nets_keep_their_lines() {
+    let mut noise = Noise(2);
+    let mut complaints = Vec::new();
+    let mut judged = 0;
+    for (name, bytes) in nets() {
+        for _ in 0..60 {
+            judged += usize::from(judge_net(&name, &mutated(&bytes, &mut noise), &mut complaints));
+        }
+    }
+    assert!(judged > 150, "only {judged} could be judged");
+    none(&complaints);
+}
+
+/// The nets of the page on nets and those of the tests stand in the layout.
+#[test]
+fn nets_are_laid_out_so() {
+    let ours = nets().into_iter().filter(|(name, _)| name.contains("nets.md") || name.ends_with(".net"));
+    none(&ours.filter(|(_, bytes)| formatted_net(bytes) != *bytes).map(|(name, _)| name).collect::<Vec<_>>());
+}
+
+#[test]
+fn gates_are_aligned_and_lists_keep_their_blanks() {
+    let loose = "int y=a(cell int go=0:real t=2.)  ! head
+MOMENTARY go
+CLASS job(int kind=0,real due)
+STATE one OF job MARKED(kind=1)
+FOR i=1 TO 2
+STATE  s[i]
+NEXT
+GATE a:one->nowhere IF NOT(x+1>=2)
+THEN one->nothing
+GATE  longer :2*one , s[ 1 ]-> READ s[i + 1],2*F.b PRIORITY -1
+GATE b:->one
+
+DO y=code(a,b:1.)
+GATE c : one -> PERMIT go==1,(a OR
+  b)
+END  ! rest
+";
+    let expected = "int y = a ( cell int go = 0 : real t = 2. )  ! head
+MOMENTARY go
+CLASS job ( int kind = 0, real due )
+STATE one OF job MARKED ( kind = 1 )
+FOR i = 1 TO 2
+STATE s[i]
+NEXT
+GATE a      : one -> nowhere  IF NOT (x + 1 >= 2)
+THEN one -> nothing
+GATE longer : 2*one, s[1] ->  READ s[i+1], 2*F.b PRIORITY -1
+GATE b      : -> one
+
+DO y = code ( a, b : 1. )
+GATE c : one ->  PERMIT go == 1, (a OR b)
+END  ! rest
+";
+    assert_eq!(String::from_utf8_lossy(&formatted_net(loose.as_bytes())), expected);
+    assert_eq!(String::from_utf8_lossy(&formatted_net(expected.as_bytes())), expected);
+}
+
+#[test]
+fn a_net_is_laid_out_by_the_command_and_refused_with_a_mistake() {
+    let folder = folder();
+    let path = folder.path().join("a.net");
+    let fmt = |args: &[&str], text: &str| {
+        fs::write(&path, text).unwrap();
+        let output = run(pcl2().arg("fmt").args(args).arg("a.net").current_dir(folder.path()));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code().unwrap(), said, fs::read_to_string(&path).unwrap())
+    };
+    let (loose, tidy) = ("=a( : )\nSTATE s   MARKED\nEND\n", "= a ( : )\nSTATE s MARKED\nEND\n");
+    assert_eq!(fmt(&[], loose), (0, String::new(), tidy.to_owned()));
+    assert_eq!(fmt(&["--check"], loose), (1, "a.net would change\n".to_owned(), loose.to_owned()));
+    assert_eq!(fmt(&["--check"], tidy), (0, String::new(), tidy.to_owned()));
+    for wrong in ["= a ( : )\nSTATE MARKED\nEND\n", "= a ( : )\nSTATE s MARKED\n", "= a (\nEND\n"] {
+        let (status, said, text) = fmt(&[], wrong);
+        assert!(status == 1 && said.starts_with("error[P0"), "{said}");
+        assert_eq!(text, wrong);
+    }
+    let (status, said, _) = fmt(&["--renumber"], tidy);
+    assert!(status == 1 && said.contains("leave --renumber off"), "{said}");
 }
 
 fn read(path: &Path) -> Vec<u8> {

@@ -253,6 +253,18 @@ fn the_forward_path_runs_to_the_right_and_return_wires_against_it() {
 }
 
 #[test]
+fn a_net_is_a_block_and_its_boxes_are_read_by_name() {
+    let blocks = folder();
+    fs::write(blocks.path().join("two.net"), "= two ( : )\nSTATE off MARKED\nSTATE on\nGATE g : off -> on\nEND\n")
+        .unwrap();
+    let text = "CONTROL\n1 N = two ( : )\n2 y = not ( N.on : )\nEND\n";
+    let drawn = diagram(&draw(text, &["--blocks", &blocks.path().display().to_string()]));
+    none(&faults("net", &drawn));
+    assert_eq!(drawn.boxes.len(), 2);
+    assert!(drawn.texts.iter().any(|(text, ..)| text == "on"), "{:?}", drawn.texts);
+}
+
+#[test]
 fn the_same_program_gives_the_same_bytes() {
     let text = generate(150, 3, 5).text;
     assert_eq!(draw(&text, &[]), draw(&text, &[]));

@@ -11,11 +11,25 @@ use std::process::Command;
 /// The values of each column of a trace.
 type Trace = BTreeMap<String, Vec<f64>>;
 
-/// Runs a program and reads its trace.
+/// Runs a program and returns the text of its trace.
+fn run_in(path: &Path, args: &[&str], engine: &[&str]) -> Vec<u8> {
+    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args).args(engine));
+    assert!(output.status.success(), "{engine:?}: {}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+/// Runs a program in the embedded engine and in each form of its C, and reads the trace that all of them give.
 fn trace(path: &Path, args: &[&str]) -> Trace {
-    let output = run(pcl2().arg("run").arg(path).args(["--trace", "-"]).args(args));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let output = run_in(path, args, &[]);
+    for form in FORMS {
+        let compiled = run_in(path, args, &["--engine", "cc", "--net-form", form]);
+        assert_eq!(String::from_utf8_lossy(&compiled), String::from_utf8_lossy(&output), "{form}");
+    }
+    read(&output)
+}
+
+fn read(text: &[u8]) -> Trace {
+    let mut reader = csv::Reader::from_reader(text);
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
     let mut trace = Trace::new();
     for row in reader.records() {
@@ -25,6 +39,9 @@ fn trace(path: &Path, args: &[&str]) -> Trace {
     }
     trace
 }
+
+/// The forms of a net in C.
+const FORMS: [&str; 2] = ["table", "fast"];
 
 /// Runs nets written here: file name and text, the first is the program.
 fn traced(files: &[(&str, &str)], stimulus: &str, args: &[&str]) -> Trace {
@@ -53,10 +70,44 @@ fn marked(trace: &Trace, scan: usize) -> Vec<&str> {
 }
 
 fn tank() -> Trace {
+    tank_in("tank.net", "18")
+}
+
+fn tank_in(file: &str, steps: &str) -> Trace {
     let folder = tempfile::tempdir().unwrap();
     let stimulus = folder.path().join("button.csv");
     fs::write(&stimulus, "k,press,release\n0,1,0\n2,0,1\n").unwrap();
-    trace(&root().join("tests/nets/tank.net"), &["--steps", "18", "--stimulus", stimulus.to_str().unwrap()])
+    trace(&root().join("tests/nets").join(file), &["--steps", steps, "--stimulus", stimulus.to_str().unwrap()])
+}
+
+/// How often each of some places is entered, and whether it is marked at the end.
+fn entered(trace: &Trace, start: &[&str], column: impl Fn(&str) -> String, places: &[&str]) -> Vec<(usize, bool)> {
+    let one = |place: &&str| {
+        let values = self::column(trace, &column(place));
+        let before = std::iter::once(f64::from(u8::from(start.contains(place)))).chain(values.iter().copied());
+        let times = before.zip(values).filter(|(before, now)| **now > *before).count();
+        (times, values.last().is_some_and(|last| *last > 0.))
+    };
+    places.iter().map(one).collect()
+}
+
+/// The tank in a hierarchy, steps as macros and devices as modules, enters each place as often as the flat net does,
+/// from the start back to the start. A macro takes one scan more, from its entry to its exit: four of them do.
+#[test]
+fn the_hierarchical_tank_does_what_the_flat_one_does() {
+    let start = ["D10", "D21", "L1", "P0", "S0", "V10", "V20", "Z10"];
+    let steps = ["S0", "S1", "S2", "S3", "S4", "S5", "S6"];
+    let devices = ["P0", "P1", "L1", "L0", "V10", "V11", "V20", "V21", "Z10", "Z11", "Z12", "D10", "D11", "D20", "D21"];
+    let (flat, hierarchical) = (tank_in("tank.net", "16"), tank_in("tank_hierarchical.net", "20"));
+    for (places, is_step) in [(steps.as_slice(), true), (devices.as_slice(), false)] {
+        let expected = entered(&flat, &start, |place| format!("tank.{place}"), places);
+        let name = |place: &str| if is_step { format!("tank_hierarchical.{place}") } else { place.to_owned() };
+        assert_eq!(entered(&hierarchical, &start, name, places), expected);
+        let firings: usize = expected.iter().map(|(times, _)| times).sum();
+        assert_eq!(firings, if is_step { 7 } else { 16 });
+        let marked: Vec<bool> = places.iter().map(|place| start.contains(place)).collect();
+        assert_eq!(expected.iter().map(|(_, marked)| *marked).collect::<Vec<_>>(), marked);
+    }
 }
 
 /// Jeong and Yang, equations (9), (15), (16), (17): the marked places after the scans.
@@ -252,7 +303,55 @@ END
     assert_eq!(column(&trace, "lamp"), [0., 0., 1., 1., 0., 0., 0., 0.]);
 }
 
+/// In a condition a macro is its box, whatever its outputs are.
+#[test]
+fn a_macro_in_a_condition_is_its_token() {
+    let outer = "int lamp, int inside = outer ( int go, int level : )
+STATE idle MARKED
+MACRO fill : lamp = filling ( level : )
+STATE out MARKED
+STATE in DRIVES inside
+GATE start : idle -> fill IF go
+GATE end : fill -> idle
+GATE g1 : out -> in IF fill
+GATE g2 : in -> out IF NOT fill
+END
+";
+    let inner = "int open = filling ( int level : )
+ENTRY begin DRIVES open
+EXIT finished
+GATE g : begin -> finished IF level
+END
+";
+    let stimulus = "k,go,level\n0,1,0\n1,0,1\n";
+    let trace = traced(&[("outer.net", outer), ("filling.net", inner)], stimulus, &["--steps", "5"]);
+    assert_eq!(column(&trace, "outer.fill"), [1., 1., 0., 0., 0.]);
+    assert_eq!(column(&trace, "lamp"), [1., 0., 0., 0., 0.]);
+    assert_eq!(column(&trace, "inside"), [0., 1., 1., 0., 0.]);
+}
+
 /// A net may be made of other nets alone.
+/// What a net inside counts, and what its ACTIVE tells, reaches the words of the net around it.
+#[test]
+fn words_of_a_net_inside_come_out_however_they_are_written() {
+    let outer = "int n, int step, real t = outer ( : )\nMODULE M : n, step, t = inner ( : )\nEND\n";
+    let inner = "int n, int step, real t = inner ( : )\nACTIVE step, t OF a, b\nSTATE a MARKED\nTIME b 2.\n\
+                 GATE go : a -> b\nDO n = n + 1\nGATE back : b -> a\nEND\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], "", &["--period", "1", "--steps", "8"]);
+    assert_eq!(column(&trace, "n"), [1., 1., 1., 2., 2., 2., 3., 3.]);
+    assert_eq!(column(&trace, "step"), [2., 2., 1., 2., 2., 1., 2., 2.]);
+    assert_eq!(column(&trace, "t"), [0., 1., 0., 0., 1., 0., 0., 1.]);
+}
+
+/// A gate that puts a token into a GENERATE box makes no edge of its condition.
+#[test]
+fn a_token_put_into_a_generating_box_makes_no_edge() {
+    let net = "int dummy = pool ( int more, int back : )\nCLASS c ( int a )\nSTATE spare OF c MARKED ( a = 1 ) DRIVES dummy\n\
+               GENERATE made OF c SIZE 9 WHEN more\nGATE give : spare -> made IF back\nEND\n";
+    let trace = traced(&[("pool.net", net)], "k,more,back\n0,1,0\n2,1,1\n", &["--steps", "6"]);
+    assert_eq!(column(&trace, "pool.made"), [1., 1., 2., 2., 2., 2.]);
+}
+
 #[test]
 fn a_net_of_modules_has_no_boxes_of_its_own() {
     let outer = "int q = twice ( int b : )
@@ -477,6 +576,51 @@ fn nets_with_mistakes_are_refused() {
     }
 }
 
+/// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
+/// used; a help can be followed.
+#[test]
+fn a_mistake_is_told_once_at_its_place() {
+    let cases = [
+        ("int v, int q = bad ( : )\nSTATE a MARKED DRIVES v\nEND\n", "P0407", "bad.net:1:12"),
+        ("int v, real q = bad ( : )\nSTATE a MARKED DRIVES v, q\nEND\n", "P0407", "bad.net:1:13"),
+        ("int v = bad ( int v : )\nSTATE a MARKED DRIVES v\nEND\n", "P0402", "bad.net:1:5"),
+        ("ivec[2] v = bad ( : )\nSTATE a MARKED\nEND\n", "P0501", "bad.net:1:9"),
+        (
+            "int on = bad ( int b : )\nSTATE off MARKED\nSTATE on DRIVES on\nGATE g : off -> on IF b\nGATE h : on -> off\nEND\n",
+            "P0402",
+            "bad.net:3:7",
+        ),
+        ("= bad ( : )\nSTATE a MARKED 2\nEND\n", "P0404", "expected at most 1 token in `a`, found 2"),
+        ("= bad ( : )\nSTATE a MARKED\nSTATE b\nGATE g : 2*a -> b\nEND\n", "P0404", "at most 1 token from or to `a`"),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nEND\n",
+            "P0405",
+            "help: make a new one: `THEN a -> nothing`, `THEN NEW -> b`",
+        ),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE p OF c MARKED\nSTATE b OF c\nGATE g : a, p -> b\nEND\n",
+            "P0405",
+            "help: say with THEN which token goes where: `THEN p -> b`",
+        ),
+    ];
+    for (text, code, words) in cases {
+        let (status, shown) = checked(text);
+        assert_eq!(status, Some(1), "{text}\n{shown}");
+        assert_eq!(shown.matches("error[").count(), 1, "{text}\n{shown}");
+        assert!(shown.contains(code) && shown.contains(words), "{code} {words} for\n{text}\nfound\n{shown}");
+    }
+    let followed = "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nTHEN a -> nothing\nTHEN NEW -> b\nEND\n";
+    assert_eq!(checked(followed), (Some(0), String::new()));
+}
+
+/// Checks the net `bad`.
+fn checked(text: &str) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.net"), text).unwrap();
+    let output = run(pcl2().args(["check", "bad.net"]).current_dir(folder.path()));
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
 /// The player compiles without a word, in both widths, on the host and for a microcontroller.
 #[test]
 fn compilers_have_nothing_to_say_about_the_player() {
@@ -624,7 +768,12 @@ fn random_nets_do_what_the_definition_says() {
             let _ = writeln!(stimulus, "{k},{}", row.join(","));
         }
         let text = net.text();
-        let trace = traced(&[("plain.net", &text)], &stimulus, &["--steps", &scans.to_string()]);
+        let folder = tempfile::tempdir().unwrap();
+        let (path, values) = (folder.path().join("plain.net"), folder.path().join("stimulus.csv"));
+        fs::write(&path, &text).unwrap();
+        fs::write(&values, stimulus).unwrap();
+        let args = ["--steps", &scans.to_string(), "--stimulus", values.to_str().unwrap()];
+        let trace = read(&run_in(&path, &args, &[]));
         let mut marking = net.start.clone();
         for (scan, row) in inputs.iter().enumerate() {
             let next = net.step(&marking, row);

@@ -171,6 +171,20 @@ fn a_net_may_be_stuck_in_part_without_a_dead_marking() {
     assert!(text.contains("transitions that are not live: go, back, leave\n"), "{text}");
 }
 
+/// The paper's measuring tank: scan by scan it comes back to its start; one transition at a time its modules get out of
+/// step, and some never move again although no marking is dead.
+#[test]
+fn the_measuring_tank_is_live_scan_by_scan_alone() {
+    let found = analyzed("tank.net", &[]);
+    assert_eq!(found["semantics"], "step");
+    assert_eq!((&found["deadlock"], &found["live"], &found["reversible"]), (&false.into(), &true.into(), &true.into()));
+    let found = analyzed("tank.net", &["--semantics", "interleaving"]);
+    assert_eq!(
+        (&found["deadlock"], &found["live"], &found["reversible"]),
+        (&false.into(), &false.into(), &false.into())
+    );
+}
+
 /// A pump fills a tank for ever; the basin behind it too. Whatever the limit, that is known, and the run ends.
 #[test]
 fn unbounded_places_are_named() {

@@ -133,6 +133,49 @@ fn many_signals_are_left_out_and_counted() {
     Document::parse(&plot(folder.path(), &["--steps", "0"])).expect("a picture without samples");
 }
 
+const NET: &str = "\
+int busy = store ( int put, int take : )
+GENERATE make SIZE 1 WHEN put
+CAPACITY shelf SIZE 9 DRIVES busy
+GATE in  : make -> shelf
+GATE out : shelf ->  IF take
+END
+";
+
+/// A token comes in scans 2, 12 and 22, one goes in scan 30.
+const PUTS: &str = "k,put,take\n0,0,0\n2,1,0\n4,0,0\n12,1,0\n14,0,0\n22,1,0\n24,0,0\n30,0,1\n31,0,0\n49,0,0\n";
+
+#[test]
+fn a_net_is_drawn_as_a_time_chart() {
+    let folder = project("store.net", NET, PUTS);
+    let svg = check(pcl2().current_dir(folder.path()).args(["run", "store.net", "--stimulus", "s.csv", "--plot", "-"]));
+    assert_eq!(panels(&svg), [vec!["busy", "put", "take"], vec!["store.make", "store.shelf"]]);
+    // The number stands where it holds: 1, 2, 3 and 2 again. Each has a band of its own.
+    assert_eq!(texts(&svg, "count"), ["1", "2", "3", "2"]);
+    let columns: Vec<&str> = svg.split("class='marked'").skip(1).filter_map(|rest| rest.split('\'').nth(3)).collect();
+    let starts: Vec<String> = [2, 12, 22, 30].map(|scan| (84 + scan * 800 / 50).to_string()).into();
+    assert_eq!(columns, starts);
+}
+
+/// More boxes than other signals have room: in a `.cfg`, too, where each net has a chart of its own.
+#[test]
+fn the_boxes_of_each_net_stand_together() {
+    let folder = project("p.cfg", "CONTROL\n1 A = ring ( : )\n2 B = ring ( : )\n3 n = msi ( : 5 )\nEND\n", "");
+    let mut ring = "= ring ( : )\n".to_owned();
+    for i in 0..60 {
+        let start = if i == 0 { " MARKED" } else { "" };
+        ring += &format!("STATE s{i}{start}\nGATE t{i} : s{i} -> s{}\n", (i + 1) % 60);
+    }
+    fs::write(folder.path().join("ring.net"), format!("{ring}END\n")).unwrap();
+    let svg = plot(folder.path(), &["--steps", "60"]);
+    let panels = panels(&svg);
+    let of = |net: &str| (0..60).map(|i| format!("{net}.s{i}")).collect::<std::collections::BTreeSet<_>>();
+    let found: Vec<std::collections::BTreeSet<String>> =
+        panels.iter().map(|panel| panel.iter().cloned().collect()).collect();
+    assert!(found.contains(&of("A")) && found.contains(&of("B")), "{found:?}");
+    assert!(found.contains(&["n".to_owned()].into()) && !svg.contains("more signals"), "{found:?}");
+}
+
 #[test]
 fn how_plotting_ends() {
     let folder = project("p.cfg", MIX, "");

@@ -320,8 +320,8 @@ impl<'a> Wirer<'_, 'a> {
 
     /// A variable in an expression; in a composite's body also one of its constants.
     fn operand(&mut self, name: Name) -> Option<Source> {
-        if let Some(id) = self.scope.by_name.get(name.symbol) {
-            return Some(Source::Signal(id));
+        if let Some(source) = self.named(name) {
+            return Some(source);
         }
         let text = self.input.symbols.text(name.symbol);
         if let Some((owner, sizes)) = &self.scope.owner {
@@ -342,12 +342,17 @@ impl<'a> Wirer<'_, 'a> {
         None
     }
 
-    /// In a net: the tokens of a box, or the net's own parameter.
-    fn of_net(&self, name: Name) -> Option<Source> {
-        let owner = self.scope.owner.as_ref().map(|(decl, _)| *decl).filter(|decl| decl.net.is_some())?;
+    /// A box of the net, else a variable. A macro has the name of both: of its box, and of the block that it calls.
+    fn named(&self, name: Name) -> Option<Source> {
         if let Some((id, element)) = self.scope.elements.get(&name.symbol) {
             return Some(Source::Element(*id, *element));
         }
+        self.scope.by_name.get(name.symbol).map(Source::Signal)
+    }
+
+    /// The net's own parameter.
+    fn of_net(&self, name: Name) -> Option<Source> {
+        let owner = self.scope.owner.as_ref().map(|(decl, _)| *decl).filter(|decl| decl.net.is_some())?;
         let text = self.input.symbols.text(name.symbol);
         let index = owner.params.iter().position(|param| param.name == text)?;
         match owner.params[index].ty {
@@ -407,8 +412,8 @@ impl<'a> Wirer<'_, 'a> {
     }
 
     fn name(&mut self, port: &PortDecl, name: Name) -> Option<Source> {
-        if let Some(id) = self.scope.by_name.get(name.symbol) {
-            return Some(Source::Signal(id));
+        if let Some(source) = self.named(name) {
+            return Some(source);
         }
         if let Some(source) = self.of_net(name) {
             return Some(source);

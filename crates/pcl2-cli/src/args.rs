@@ -27,7 +27,7 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// List parameters, compare them with the source, or save them in it
     Params(crate::params::ParamsArgs),
-    /// Draw the block diagram of a program
+    /// Draw the block diagram of a program, or a net
     Graph(GraphArgs),
     /// Analyse Petri nets
     #[command(subcommand)]
@@ -56,6 +56,28 @@ pub(crate) struct CommonArgs {
     /// A folder with function codes of your own (.fc and .c)
     #[arg(long, value_name = "DIR")]
     pub(crate) blocks: Vec<PathBuf>,
+    /// How nets become C: fast code, or a table for small flash
+    #[arg(long, value_name = "fast|table")]
+    pub(crate) net_form: Option<Form>,
+}
+
+/// How nets become C.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Form {
+    /// Code of each gate
+    Fast,
+    /// A table that a player walks
+    Table,
+}
+
+impl Form {
+    /// As the emitter knows it.
+    pub(crate) fn net_form(self) -> pcl2_emit::NetForm {
+        match self {
+            Form::Fast => pcl2_emit::NetForm::Fast,
+            Form::Table => pcl2_emit::NetForm::Table,
+        }
+    }
 }
 
 /// The width of reals.
@@ -154,7 +176,7 @@ pub(crate) enum Part {
 /// `pcl2 fmt`
 #[derive(Args, Debug)]
 pub(crate) struct FmtArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     #[arg(required = true, value_name = "PATH")]
     pub(crate) paths: Vec<PathBuf>,
     /// Number the blocks 1, 2, 3 .. in order of execution, and change what refers to numbers
@@ -171,7 +193,7 @@ pub(crate) struct FmtArgs {
 /// `pcl2 graph`
 #[derive(Args, Debug)]
 pub(crate) struct GraphArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     pub(crate) path: PathBuf,
     /// The picture (`-`: to standard output)
     #[arg(short, long, value_name = "SVG")]

@@ -1,5 +1,6 @@
 //! `pcl2.toml`: what is decided about a project beside its sources.
 
+use pcl2_emit::NetForm;
 use pcl2_lang::codes;
 use pcl2_lang::diagnostic::Diagnostic;
 use pcl2_lang::source::{FileId, Sources, Span};
@@ -27,7 +28,9 @@ pub(crate) struct Config {
     pub(crate) substeps: Option<u32>,
     /// `[build] tunable`
     pub(crate) tunable: pcl2_cfg::Tunable,
-    /// Where it stands.
+    /// `[build] net_form`
+    pub(crate) net_form: Option<NetForm>,
+    /// Where `tunable` stands.
     pub(crate) tunable_span: Option<Span>,
     /// `[io]`
     pub(crate) io: Vec<Binding>,
@@ -167,7 +170,8 @@ impl Reader<'_> {
                         }
                     }
                 }
-                _ => self.unknown(key, &["tunable"], "a key"),
+                "net_form" => config.net_form = self.net_form(value),
+                _ => self.unknown(key, &["tunable", "net_form"], "a key"),
             }
         }
     }
@@ -284,6 +288,18 @@ impl Reader<'_> {
             return self.texts(value).into_iter().map(|text| (text, self.span(&value.span()))).collect();
         };
         list.iter().filter_map(|item| Some((self.text(item)?, self.span(&item.span())))).collect()
+    }
+
+    fn net_form(&mut self, value: &Spanned<DeValue<'_>>) -> Option<NetForm> {
+        match self.text(value)?.as_str() {
+            "fast" => Some(NetForm::Fast),
+            "table" => Some(NetForm::Table),
+            other => {
+                let message = format!("expected \"fast\" or \"table\", found \"{other}\"");
+                self.complain(&value.span(), message, None);
+                None
+            }
+        }
     }
 
     fn width(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Width> {

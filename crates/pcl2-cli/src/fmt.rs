@@ -2,11 +2,12 @@
 
 use crate::args::{CommonArgs, FmtArgs};
 use crate::console;
+use crate::nets::is_net;
 use crate::outcome::Outcome;
 use crate::output;
 use crate::project::{self, Draft};
 use pcl2_lang::diagnostic::Diagnostic;
-use pcl2_lang::format::format;
+use pcl2_lang::format::{format, format_net};
 use pcl2_lang::source::{FileId, MARK, Sources};
 use std::path::Path;
 
@@ -24,7 +25,8 @@ fn one(path: &Path, args: &FmtArgs) -> Outcome {
         return Outcome::Errors;
     };
     let shown = path.display();
-    let Some(text) = formatted(&draft, *file) else {
+    let laid_out = if is_net(path) { format_net(draft.sources.file(*file)) } else { formatted(&draft, *file) };
+    let Some(text) = laid_out else {
         console::error(&format!("`{shown}` is left as it is: its lines do not read the same in another layout"));
         return Outcome::Errors;
     };

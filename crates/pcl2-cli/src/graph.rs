@@ -16,7 +16,10 @@ pub(crate) fn graph(args: &GraphArgs) -> Outcome {
     let Some(verified) = &project.verified else {
         return Outcome::Errors;
     };
-    let picture = pcl2_draw::graph::svg(verified);
+    let picture = match project.net() {
+        Some(net) => pcl2_draw::net::svg(&net),
+        None => pcl2_draw::graph::svg(verified),
+    };
     let written = Output::open(&args.output).and_then(|mut output| {
         files::write(&args.output, &mut output, picture.as_bytes())?;
         output.keep()

@@ -51,7 +51,9 @@ fn words(program: &Program) -> Vec<Word> {
         scalar: image.scalar,
         single: true,
     });
-    let crossing = controller.main().signals.iter().filter(|signal| matches!(signal.role, Role::Input | Role::Output));
+    // Before the cut a net that is a program of its own has them already.
+    let signals = program.main().signals.iter().chain(&controller.main().signals);
+    let crossing = signals.filter(|signal| matches!(signal.role, Role::Input | Role::Output));
     let signals = crossing.map(|signal| Word {
         name: signal.name.clone(),
         to_plant: signal.role == Role::Output,

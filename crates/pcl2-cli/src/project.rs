@@ -9,7 +9,9 @@ use pcl2_cfg::{FileText, Input, Options, wanted_files};
 use pcl2_lang::catalogue::{Catalogue, UserFile};
 use pcl2_lang::codes;
 use pcl2_lang::decl::Decl;
+use pcl2_lang::declare;
 use pcl2_lang::diagnostic::{self, Diagnostic};
+use pcl2_lang::net::written::{self, Written};
 use pcl2_lang::source::{FileId, Sources, Span};
 use pcl2_lang::symbol::Symbols;
 use pcl2_lang::syntax;
@@ -39,16 +41,36 @@ pub(crate) struct Project {
     pub(crate) left_out: usize,
     /// The known function codes.
     pub(crate) catalogue: Catalogue,
+    /// All names.
+    pub(crate) symbols: Symbols,
+    /// The stem of the source's name: a net is called so.
+    pub(crate) stem: String,
     /// C files of the user's own blocks: name and text.
     pub(crate) kernels: Vec<(String, String)>,
     /// The content of pcl2.toml.
     pub(crate) config: Config,
+    /// How nets become C.
+    pub(crate) net_form: pcl2_emit::NetForm,
     /// The source, if it could be read: its place and its text.
     pub(crate) source: Option<(PathBuf, FileId)>,
     /// How long each phase took.
     pub(crate) timings: Vec<(&'static str, Duration)>,
     /// Bytes of source, lines and blocks.
     pub(crate) lines: usize,
+}
+
+impl Project {
+    /// The net that is the whole program, if it is one.
+    pub(crate) fn net(&self) -> Option<Written<'_>> {
+        self.source.as_ref().filter(|(path, _)| nets::is_net(path))?;
+        written::read(self.catalogue.find(&self.stem)?, &self.sources, &self.catalogue)
+    }
+
+    /// What the emitter is handed beside the program.
+    pub(crate) fn emit_options(&self) -> pcl2_emit::Options<'_> {
+        let known = self.catalogue.decls().collect();
+        pcl2_emit::Options { known, user_files: self.kernels.clone(), net_form: self.net_form }
+    }
 }
 
 /// Reads and checks the program at a path.
@@ -89,7 +111,10 @@ fn load_for(path: &Path, common: &CommonArgs, purpose: Use, replaced: Option<Vec
         diagnostics,
         left_out,
         catalogue,
+        symbols: loader.symbols,
+        stem: place.stem,
         kernels: loader.kernels,
+        net_form: common.net_form.map(crate::args::Form::net_form).or(place.config.net_form).unwrap_or_default(),
         config: place.config,
         source: place.path.zip(place.source),
         timings: loader.timings,
@@ -117,9 +142,12 @@ pub(crate) fn load_draft(path: &Path, common: &CommonArgs, renumber: bool) -> Dr
     let place = loader.place(path);
     let mut edits = Vec::new();
     if let (Some(file), true) = (place.source, place.path.as_deref().is_some_and(nets::is_net)) {
-        let message = "expected a .cfg file to lay out, found a net";
-        let report = Diagnostic::new(codes::UNREADABLE, start_of(file), message);
-        loader.diagnostics.push(report.help("nets keep the layout that they have"));
+        let (symbols, diagnostics) = (&mut loader.symbols, &mut loader.diagnostics);
+        let _ = declare::net::read(&loader.sources, file, &place.stem, symbols, diagnostics);
+        if renumber {
+            let report = Diagnostic::new(codes::UNREADABLE, start_of(file), "expected a .cfg file, found a net");
+            loader.diagnostics.push(report.help("leave --renumber off: a net has no numbers"));
+        }
     } else if let Some(file) = place.source {
         let tree = syntax::parse(&loader.sources, file, &mut loader.symbols, &mut loader.diagnostics);
         if renumber && !loader.diagnostics.iter().any(Diagnostic::is_error) {

@@ -172,9 +172,18 @@ impl<'c, 'a> Call<'c, 'a> {
         }
     }
 
+    /// What stands before the scratch arrays: a composite gets them as arguments, a net keeps them.
+    pub(crate) fn scratch_root(&self) -> &'c str {
+        match self.cx.unit_layout(self.unit).net {
+            Some(_) => "self->net.",
+            None if self.unit.0 == 0 => self.scope().root,
+            None => "",
+        }
+    }
+
     /// A pointer into one of the scratch arrays.
     pub(crate) fn scratch_pointer(&self, out: &mut String, name: &str, first: usize) {
-        let root = if self.unit.0 == 0 { self.scope().root } else { "" };
+        let root = self.scratch_root();
         let _ = match first {
             0 => write!(out, "{root}{name}"),
             _ => write!(out, "&{root}{name}[{first}]"),

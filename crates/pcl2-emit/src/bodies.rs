@@ -8,6 +8,7 @@ use crate::context::Context;
 use crate::expr::{self, Scope};
 use crate::facts::element_scalar;
 use crate::layout::{Store, UnitLayout};
+use crate::net::{self, NetBody};
 use crate::statics::Statics;
 use pcl2_lang::decl::{Decl, TypeExpr};
 use pcl2_lang::kernel::{self, Entry};
@@ -20,11 +21,12 @@ const MANY_CALLS: usize = 16;
 
 /// Writes all functions of a composite.
 pub(crate) fn functions(out: &mut String, cx: &Context<'_>, statics: &mut Statics, unit: UnitId) {
-    let Some((decl, _)) = &cx.program.unit(unit).composite else {
+    let Some(body) = Body::new(cx, unit) else {
         return;
     };
-    let body =
-        Body { cx, id: unit, unit: cx.program.unit(unit), layout: cx.unit_layout(unit), decl: cx.program.decl(*decl) };
+    if let Some(net) = NetBody::of(&body) {
+        net::enumerators(out, &net);
+    }
     if body.layout.facts.checks {
         check_function(out, statics, &body);
     }
@@ -37,15 +39,28 @@ pub(crate) fn functions(out: &mut String, cx: &Context<'_>, statics: &mut Static
     step_function(out, statics, &body);
 }
 
-struct Body<'c, 'a> {
-    cx: &'c Context<'a>,
-    id: UnitId,
-    unit: &'a Unit,
-    layout: &'c UnitLayout<'a>,
-    decl: &'a Decl,
+/// A composite or a net in the making.
+pub(crate) struct Body<'c, 'a> {
+    /// What is known.
+    pub(crate) cx: &'c Context<'a>,
+    /// Its unit.
+    pub(crate) id: UnitId,
+    /// The unit.
+    pub(crate) unit: &'a Unit,
+    /// Its layout.
+    pub(crate) layout: &'c UnitLayout<'a>,
+    /// Its declaration.
+    pub(crate) decl: &'a Decl,
 }
 
 impl<'c, 'a> Body<'c, 'a> {
+    /// The body of a unit; the program's own has none.
+    pub(crate) fn new(cx: &'c Context<'a>, id: UnitId) -> Option<Self> {
+        let unit = cx.program.unit(id);
+        let (decl, _) = unit.composite.as_ref()?;
+        Some(Body { cx, id, unit, layout: cx.unit_layout(id), decl: cx.program.decl(*decl) })
+    }
+
     fn blocks(&self) -> impl Iterator<Item = (BlockId, &'a Block)> + use<'a> {
         self.unit.blocks.iter().enumerate().map(|(i, block)| (BlockId(i as u32), block))
     }
@@ -80,8 +95,23 @@ fn argument(ty: &TypeExpr, name: &str) -> String {
 }
 
 fn step_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
+    if let Some(net) = NetBody::of(body) {
+        net::scan(out, statics, &net, &step_head(body));
+        return;
+    }
     let scope = Scope::of(body.id);
     let used = used_ports(body);
+    out.push_str(&step_head(body));
+    out.push_str("{\n");
+    for ((name, _), _) in body.layout.ports.iter().zip(&used).filter(|(_, used)| !**used) {
+        let _ = writeln!(out, "    (void){name};");
+    }
+    step_blocks(out, statics, body, scope);
+    out.push_str("}\n\n");
+}
+
+fn step_head(body: &Body<'_, '_>) -> String {
+    let mut out = String::new();
     let linkage = if body.layout.calls >= MANY_CALLS { "PCL2_SHARED" } else { "static" };
     let _ = write!(out, "/* {} */\n{linkage} void {tag}(struct {tag} *self", body.decl.name, tag = body.layout.tag);
     for (name, ty) in &body.layout.ports {
@@ -97,12 +127,8 @@ fn step_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
             let _ = write!(out, ", {declaration}");
         }
     }
-    out.push_str(")\n{\n");
-    for ((name, _), _) in body.layout.ports.iter().zip(&used).filter(|(_, used)| !**used) {
-        let _ = writeln!(out, "    (void){name};");
-    }
-    step_blocks(out, statics, body, scope);
-    out.push_str("}\n\n");
+    out.push_str(")\n");
+    out
 }
 
 fn step_blocks(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>, scope: Scope<'_>) {
@@ -148,8 +174,12 @@ fn tune_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
             body.call_inner(&mut text, statics, id, block, Entry::Tune);
         }
     }
+    if let Some(net) = NetBody::of(body) {
+        net::tune(&mut text, &net);
+    }
     let _ = writeln!(out, "static void {}_tune({})\n{{", body.layout.tag, args.join(", "));
     body.unused(out, &facts.tune, &text);
+    unused_instance(out, &text);
     let _ = writeln!(out, "{text}}}\n");
 }
 
@@ -272,9 +302,20 @@ fn init_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {
         }
     }
     crate::init::start_values(&mut text, body.cx, body.id);
+    if let Some(net) = NetBody::of(body) {
+        net::start(&mut text, &net);
+    }
     let _ = writeln!(out, "static void {}_init({})\n{{", body.layout.tag, args.join(", "));
     body.unused(out, &facts.init, &text);
+    unused_instance(out, &text);
     let _ = writeln!(out, "{text}}}\n");
+}
+
+/// A net without tokens at the start, or without a time, has nothing to do there.
+fn unused_instance(out: &mut String, text: &str) {
+    if !text.contains("self->") {
+        out.push_str("    (void)self;\n");
+    }
 }
 
 fn check_function(out: &mut String, statics: &mut Statics, body: &Body<'_, '_>) {

@@ -138,7 +138,7 @@ fn gather(out: &mut String, call: &mut Call<'_, '_>, used: &mut Scratch, indent:
 
 fn gather_one(out: &mut String, call: &Call<'_, '_>, source: &Source, ty: Type, at: usize, indent: &str) {
     let name = scratch_name(ty.scalar);
-    let root = if call.unit.0 == 0 { call.scope().root } else { "" };
+    let root = call.scratch_root();
     if ty.is_scalar() {
         let _ = write!(out, "{indent}{root}{name}[{at}] = ");
         expr::source_value(out, call.cx, call.scope(), source, ty.scalar);

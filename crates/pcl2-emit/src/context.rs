@@ -1,8 +1,10 @@
 //! What every phase reads: the program, its codes and its layout.
 
+use crate::NetForm;
 use crate::calls::{self, Telling};
 use crate::code::Code;
 use crate::layout::{Layout, UnitLayout};
+use crate::net::layout::NetLayout;
 use crate::shape::Shape;
 use pcl2_lang::program::{BlockId, DeclId, Program, UnitId};
 use pcl2_lang::source::Sources;
@@ -26,15 +28,32 @@ pub(crate) struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// Looks everything up.
-    pub(crate) fn new(program: &'a Program, sources: &'a Sources) -> Context<'a> {
+    pub(crate) fn new(program: &'a Program, sources: &'a Sources, form: NetForm) -> Context<'a> {
         let name = crate::names::settled_program_name(&program.name);
         let codes: Vec<Code<'a>> = program.decls.iter().map(Code::new).collect();
-        let layout = crate::layout::layout(program, &name, &codes);
+        let layout = crate::layout::layout(program, &name, &codes, form);
         let mut context = Context { program, sources, name, codes, layout, statuses: Vec::new() };
         let blocks = (0..program.main().blocks.len() as u32).map(BlockId);
         let status = |block: &BlockId| calls::telling(&context, UnitId(0), *block) == Telling::Status;
         context.statuses = blocks.filter(status).map(|block| block.0).collect();
         context
+    }
+
+    /// Whether the program uses nets.
+    pub(crate) fn has_nets(&self) -> bool {
+        self.nets().next().is_some()
+    }
+
+    /// The headers that the forms of its nets need.
+    pub(crate) fn net_headers(&self) -> impl Iterator<Item = &'static str> {
+        let uses = |form: NetForm| self.nets().any(|net| net.form == form);
+        let step = uses(NetForm::Fast).then_some("pcl2_net_step.h");
+        step.into_iter().chain(uses(NetForm::Table).then_some("pcl2_net.h"))
+    }
+
+    /// What the nets of the program keep.
+    pub(crate) fn nets(&self) -> impl Iterator<Item = &NetLayout> {
+        self.layout.units.iter().filter_map(|unit| unit.net.as_ref())
     }
 
     /// A function code.

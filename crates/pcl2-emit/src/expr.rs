@@ -6,7 +6,7 @@ use crate::shape::{Form, Shape};
 use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::kernel;
-use pcl2_lang::program::{BlockId, CellId, Param, SignalId, Source, UnitId};
+use pcl2_lang::program::{BlockId, CellId, Param, Role, SignalId, Source, UnitId};
 use pcl2_lang::types::{Scalar, Type, Value};
 use std::fmt::Write;
 
@@ -141,6 +141,14 @@ pub(crate) fn signal_value(out: &mut String, cx: &Context<'_>, scope: Scope<'_>,
     }
 }
 
+/// The enumerator of an element of the tokens of a net's boxes, in the net itself.
+fn box_name<'c>(cx: &'c Context<'_>, scope: Scope<'_>, signal: SignalId, element: u32) -> Option<&'c str> {
+    let net = cx.unit_layout(scope.unit).net.as_ref()?;
+    let held = &cx.program.unit(scope.unit).signal(signal);
+    let tokens = held.role == Role::Held && !held.ty.is_scalar();
+    net.boxes.get(element as usize).filter(|_| tokens).map(String::as_str)
+}
+
 /// A pointer to the first element of something whose base `write` writes.
 pub(crate) fn pointer(out: &mut String, write: impl FnOnce(&mut String) -> Kind) {
     let start = out.len();
@@ -179,7 +187,13 @@ pub(crate) fn source_value(out: &mut String, cx: &Context<'_>, scope: Scope<'_>,
         }
         Source::Element(id, element) => {
             convert(out, unit.signal(*id).ty.scalar);
-            signal_value(out, cx, scope, *id, *element);
+            match box_name(cx, scope, *id, *element) {
+                Some(name) => {
+                    signal_base(out, cx, scope, *id);
+                    out.extend(["[", name, "]"]);
+                }
+                None => signal_value(out, cx, scope, *id, *element),
+            }
         }
         Source::Constant(value) => text::element(out, value, 0, want, cx.program.width),
         Source::Cell(id) => {

@@ -68,6 +68,17 @@ pub(crate) struct Facts {
     pub(crate) scratch: Scratch,
 }
 
+impl Facts {
+    /// What a net has in any case: tokens at the start, faults, the period if it depends on time, and a tune that wakes it
+    /// when a parameter changes.
+    pub(crate) fn of_net(&mut self, timed: bool) {
+        self.status = true;
+        self.inits = true;
+        self.tunes |= timed || self.hot.contains(&true);
+        self.tune_period |= timed;
+    }
+}
+
 /// The facts of a kernel, as far as parameters go.
 pub(crate) fn of_kernel(code: &Code<'_>) -> Facts {
     let takes = |entry: Entry| {

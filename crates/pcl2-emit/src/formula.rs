@@ -10,17 +10,35 @@ use pcl2_lang::types::Scalar;
 
 /// Writes the value of an expression.
 pub(crate) fn value(out: &mut String, statics: &mut Statics, call: &Call<'_, '_>, formula: &[Step]) {
+    if let Some(last) = formula.len().checked_sub(1) {
+        Tree::new(call, formula).write(out, statics, last);
+    }
+}
+
+/// Writes each real on the way to the value as a constant of its own. The results are their names, and the value.
+pub(crate) fn value_in_steps(
+    out: &mut String,
+    statics: &mut Statics,
+    call: &Call<'_, '_>,
+    formula: &[Step],
+    indent: &str,
+) -> (Vec<String>, String) {
     let Some(last) = formula.len().checked_sub(1) else {
-        return;
+        return (Vec::new(), String::new());
     };
-    let mut next = 0;
-    let ports = formula.iter().map(|step| {
-        let port = next;
-        next += usize::from(*step == Step::Port);
-        port
-    });
-    let tree = Tree { call, formula, starts: starts(call, formula), ports: ports.collect() };
-    tree.write(out, statics, last);
+    let mut tree = Tree::new(call, formula);
+    for (at, step) in formula[..last].iter().enumerate() {
+        if matches!(step, Step::Apply(_)) && !tree.is_int(at) {
+            let mut text = String::new();
+            tree.write(&mut text, statics, at);
+            let name = format!("r{}_{}", call.id.0, tree.named.iter().flatten().count() + 1);
+            out.extend([indent, "const pcl2_real ", &name, " = ", &text, ";\n"]);
+            tree.named[at] = Some(name);
+        }
+    }
+    let mut text = String::new();
+    tree.write(&mut text, statics, last);
+    (tree.named.into_iter().flatten().collect(), text)
 }
 
 /// Where the operands of each step begin.
@@ -49,10 +67,27 @@ struct Tree<'t, 'c, 'a> {
     starts: Vec<usize>,
     /// How many ports stand before each step.
     ports: Vec<usize>,
+    /// The constants that have the result of a step.
+    named: Vec<Option<String>>,
 }
 
-impl Tree<'_, '_, '_> {
+impl<'t, 'c, 'a> Tree<'t, 'c, 'a> {
+    fn new(call: &'t Call<'c, 'a>, formula: &'t [Step]) -> Self {
+        let mut next = 0;
+        let ports = formula.iter().map(|step| {
+            let port = next;
+            next += usize::from(*step == Step::Port);
+            port
+        });
+        let ports = ports.collect();
+        Tree { call, formula, starts: starts(call, formula), ports, named: vec![None; formula.len()] }
+    }
+
     fn write(&self, out: &mut String, statics: &mut Statics, at: usize) {
+        if let Some(name) = &self.named[at] {
+            out.push_str(name);
+            return;
+        }
         match self.formula[at] {
             Step::Port => self.call.port(out, statics, self.ports[at]),
             Step::Apply(code) => self.apply(out, statics, at, code),

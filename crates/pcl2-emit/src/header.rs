@@ -119,6 +119,13 @@ fn body_struct(out: &mut String, cx: &Context<'_>, unit: UnitId) {
     for slot in &layout.slots {
         signal(out, &slot.name, body.signal(slot.signal).ty, "    ");
     }
+    if let Some(net) = &layout.net {
+        out.push_str("    struct {\n");
+        for field in &net.fields {
+            shape::field(out, "        ", field);
+        }
+        out.push_str("    } net; /* what the player of nets keeps */\n");
+    }
     if layout.facts.status || out.len() == start {
         out.push_str("    int32_t status; /* 0, or the first fault of a block inside in the last scan */\n");
     }

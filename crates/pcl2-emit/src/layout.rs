@@ -1,8 +1,10 @@
 //! Where everything lives: members, slots, parts, cold parameters, the border.
 
+use crate::NetForm;
 use crate::code::Code;
 use crate::facts::{self, Facts, Scratch};
 use crate::names::Namer;
+use crate::net::layout::{self as nets, NetLayout};
 use crate::shape::{self, Cold, Extent, Form, Key, Shape};
 use pcl2_lang::decl::{Direction, Step};
 use pcl2_lang::model;
@@ -78,6 +80,8 @@ pub(crate) struct UnitLayout<'a> {
     pub(crate) calls: usize,
     /// Size and alignment.
     pub(crate) extent: Extent,
+    /// Of a net: what it keeps beside.
+    pub(crate) net: Option<NetLayout>,
 }
 
 /// A run of blocks of a long section, with a struct and functions of its own.
@@ -145,7 +149,8 @@ pub(crate) struct Layout<'a> {
 /// Members of the program's struct that no block can have.
 const RESERVED: &[&str] = &["in", "out", "cold", "health", "scan", "work", "iwork", "twork"];
 /// Names inside a composite's functions that no block, port or parameter can have.
-const RESERVED_INSIDE: &[&str] = &["T", "bad", "cold", "hot", "left", "self", "status", "iwork", "twork", "work"];
+const RESERVED_INSIDE: &[&str] =
+    &["T", "bad", "cold", "hot", "left", "net", "nets", "self", "statement", "status", "iwork", "twork", "work"];
 
 /// What stands behind the program's name in names that are always there.
 const RESERVED_TAGS: &[&str] = &[
@@ -154,12 +159,13 @@ const RESERVED_TAGS: &[&str] = &[
 ];
 
 /// Lays a program out.
-pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>]) -> Layout<'a> {
+pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>], form: NetForm) -> Layout<'a> {
     let mut builder = Builder::new(program, name, codes);
     builder.mark_used();
     for unit in (1..program.units.len()).rev() {
         builder.body(unit);
     }
+    nets::settle(program, &mut builder.layout.units, form);
     builder.main();
     builder.tag_shapes();
     builder.measure();
@@ -211,14 +217,22 @@ impl<'a, 'c> Builder<'a, 'c> {
             return;
         };
         let decl = program.decl(*decl);
-        let facts = facts::of_body(program, unit, self.codes, &self.layout.units, &self.kernels);
+        let mut facts = facts::of_body(program, unit, self.codes, &self.layout.units, &self.kernels);
         let mut namer = Namer::new(RESERVED_INSIDE);
         let ports = port_names(decl, sizes, &mut namer);
         let params = decl.params.iter().map(|param| namer.made(&param.name)).collect();
-        let stores = stores_inside(unit, self.codes);
+        let net = decl.net.as_deref();
+        let stores = stores_inside(unit, self.codes, net.is_some());
         let members = self.members(unit, &stores, &mut namer, |_| WHOLE);
-        let (stores, slots) = slots(unit, stores, &mut namer, &members);
+        let (stores, slots) = slots(unit, stores, &mut namer, &members, &ports);
         let tag = self.tag(&decl.name);
+        let net = net.map(|net| {
+            let scratch = std::mem::take(&mut facts.scratch);
+            let boxes = net.boxes.iter().map(|place| self.layout.tags.made(&format!("{tag}_{}", place.name))).collect();
+            let layout = nets::layout(program, unit, net, &self.layout.units, scratch, boxes);
+            facts.of_net(layout.timed);
+            layout
+        });
         let calls = self.layout.units[index].calls;
         self.layout.units[index] = UnitLayout {
             tag,
@@ -231,6 +245,7 @@ impl<'a, 'c> Builder<'a, 'c> {
             used: true,
             calls,
             extent: Extent::default(),
+            net,
         };
     }
 
@@ -246,7 +261,7 @@ impl<'a, 'c> Builder<'a, 'c> {
         let stores = stores_of_main(unit, &self.layout.border);
         let part_of = part_table(unit.blocks.len(), &self.layout.parts);
         let members = self.members(unit, &stores, &mut namer, |block| part_of[block]);
-        let (stores, slots) = slots(unit, stores, &mut namer, &members);
+        let (stores, slots) = slots(unit, stores, &mut namer, &members, &[]);
         self.cold(unit, &members);
         self.layout.scratch = self.scratch(unit);
         self.layout.tracking = tracking(unit);
@@ -413,6 +428,9 @@ impl<'a, 'c> Builder<'a, 'c> {
             crate::size::rest(&mut extent, self.program, &self.layout);
         } else {
             crate::size::own_params(&mut extent, self.program, unit, &layout.facts);
+            if let Some(net) = &layout.net {
+                nets::extent(&mut extent, net, width);
+            }
         }
         extent
     }
@@ -514,11 +532,13 @@ fn store_of(signal: &Signal) -> Store {
     }
 }
 
-fn stores_inside(unit: &Unit, codes: &[Code<'_>]) -> Vec<Store> {
+fn stores_inside(unit: &Unit, codes: &[Code<'_>], net: bool) -> Vec<Store> {
     let early = read_early(unit);
     let store = |(i, signal): (usize, &Signal)| match (signal.role, store_of(signal)) {
-        (Role::Port(port), _) => Store::Port(port),
-        (Role::Held, _) => Store::Slot(0),
+        (Role::Port(port), _) if !net => Store::Port(port),
+        (Role::Port(_) | Role::Held, _) => Store::Slot(0),
+        // Conditions and times of nets: the player asks for their values.
+        (Role::Wire, Store::Own(block, _)) if net && is_temporary(unit, codes, block) => Store::Local(block),
         (Role::Wire, Store::Own(block, _)) if !early[i] && is_temporary(unit, codes, block) => Store::Local(block),
         (Role::Wire | Role::Input | Role::Output, store) => store,
     };
@@ -552,13 +572,19 @@ fn slots<'a>(
     mut stores: Vec<Store>,
     namer: &mut Namer<'a>,
     members: &[Member<'a>],
+    ports: &[(String, Type)],
 ) -> (Vec<Store>, Vec<Slot<'a>>) {
     let mut slots = Vec::new();
     for (i, signal) in unit.signals.iter().enumerate() {
         if matches!(stores[i], Store::Slot(_)) {
             stores[i] = Store::Slot(slots.len() as u32);
             let part = signal.writers.first().map_or(WHOLE, |writer| members[writer.block.0 as usize].part);
-            slots.push(Slot { name: namer.name(&signal.name), signal: SignalId(i as u32), part });
+            // A net keeps its inputs under the names of the arguments.
+            let name = match signal.role {
+                Role::Port(port) => Cow::Owned(ports[port as usize].0.clone()),
+                Role::Wire | Role::Input | Role::Output | Role::Held => namer.name(&signal.name),
+            };
+            slots.push(Slot { name, signal: SignalId(i as u32), part });
         }
     }
     slots.sort_by_key(|slot: &Slot<'_>| (slot.part != WHOLE, slot.part));

@@ -22,6 +22,7 @@ mod layout;
 mod macros;
 mod map;
 mod names;
+mod net;
 mod points;
 mod rows;
 pub mod runner;
@@ -40,7 +41,6 @@ pub use runtime::files as runtime_files;
 
 use context::Context;
 use pcl2_lang::decl::Decl;
-use pcl2_lang::program::Program;
 use pcl2_lang::source::Sources;
 use pcl2_lang::verify::Verified;
 
@@ -51,6 +51,18 @@ pub struct Options<'a> {
     pub known: Vec<&'a Decl>,
     /// The C files of the user's own function codes: file name and text.
     pub user_files: Vec<(String, String)>,
+    /// How nets become C.
+    pub net_form: NetForm,
+}
+
+/// How nets become C. Both give the same trace.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NetForm {
+    /// Code of each gate, tried only when its box is marked.
+    #[default]
+    Fast,
+    /// A table that the player of the runtime walks: less flash for many gates.
+    Table,
 }
 
 /// The C that came out.
@@ -79,13 +91,7 @@ pub struct Sizes {
     pub points: usize,
 }
 
-/// A net of the program: the emitter has no C for nets.
-pub fn net_of(program: &Program) -> Option<&str> {
-    let used = program.units.iter().filter_map(|unit| unit.composite.as_ref());
-    used.map(|(decl, _)| program.decl(*decl)).find(|decl| decl.net.is_some()).map(|decl| decl.name.as_str())
-}
-
-/// Emits a program without nets.
+/// Emits a program.
 pub fn emit(verified: &Verified, sources: &Sources, options: &Options<'_>) -> Emitted {
     let mut files = Vec::new();
     let mut emitted = emit_each(verified, sources, options, &mut |path, text| files.push((path, text)));
@@ -101,7 +107,7 @@ pub fn emit_each(
     take: &mut dyn FnMut(String, String),
 ) -> Emitted {
     let program = verified.program();
-    let cx = Context::new(program, sources);
+    let cx = Context::new(program, sources, options.net_form);
     let name = cx.name.clone();
     let mut points = points::points(&cx);
     take(format!("{name}_map.c"), map::map(&cx, &mut points));

@@ -2,6 +2,7 @@
 
 use crate::context::Context;
 use crate::layout;
+use crate::net::layout::NetLayout;
 use pcl2_lang::decl::Decl;
 use pcl2_lang::kernel;
 use pcl2_lang::types::Width;
@@ -60,7 +61,10 @@ pub(crate) fn collect(cx: &Context<'_>, known: &[&Decl], user: &[(String, String
         collector.include("pcl2_io.h");
         collector.port("io.c");
     }
-    collector.put("pcl2/pcl2_config.h".to_owned(), config(cx.program.width));
+    collector.put("pcl2/pcl2_config.h".to_owned(), config(cx));
+    for header in cx.net_headers() {
+        collector.resolve("", header);
+    }
     for decl in layout::used_decls(cx.program, &cx.layout) {
         let decl = cx.program.decl(decl);
         if decl.has_kernel() {
@@ -79,8 +83,8 @@ fn family<'d>(known: &[&'d Decl], used: &'d [Decl], decl: &Decl) -> Vec<&'d Decl
     if family.is_empty() { used.iter().filter(same).collect() } else { family }
 }
 
-fn config(width: Width) -> String {
-    let (real, bits, literal) = match width {
+fn config(cx: &Context<'_>) -> String {
+    let (real, bits, literal) = match cx.program.width {
         Width::F64 => ("double", 64, "x"),
         Width::F32 => ("float", 32, "x##f"),
     };
@@ -92,10 +96,17 @@ fn config(width: Width) -> String {
 typedef {real} pcl2_real;
 #define PCL2_REAL_BITS {bits}
 #define PCL2_R(x) {literal}
-
+{}
 #endif
-"
+",
+        net_word(cx)
     )
+}
+
+/// The words of the tables of nets are as short as they fit.
+fn net_word(cx: &Context<'_>) -> &'static str {
+    let fits = |net: &NetLayout| net.table.words.iter().all(|word| u16::try_from(*word).is_ok());
+    if cx.has_nets() && cx.nets().all(fits) { "#define PCL2_NET_WORD uint16_t\n" } else { "" }
 }
 
 struct Collector<'c> {

@@ -183,6 +183,10 @@ pub enum Key {
     For,
     Next,
     Upto,
+    Mode,
+    Stop,
+    Hold,
+    Blocked,
 }
 
 impl Key {
@@ -198,8 +202,8 @@ impl Key {
             Key::Inline | Key::Simulated | Key::Operator | Key::Example | Key::After | Key::Body => true,
             Key::And | Key::Or | Key::Not | Key::New | Key::Nothing | Key::Of | Key::Size | Key::Order => false,
             Key::Marked | Key::Drives | Key::Read | Key::Inhibit | Key::Priority | Key::Permit => false,
-            Key::Until | Key::Within | Key::When | Key::Upto => false,
-            Key::Momentary | Key::Local | Key::Class => true,
+            Key::Until | Key::Within | Key::When | Key::Upto | Key::Hold => false,
+            Key::Momentary | Key::Local | Key::Class | Key::Mode | Key::Stop | Key::Blocked => true,
             Key::State | Key::Capacity | Key::Timer | Key::Count | Key::Operation | Key::Signal | Key::Process => true,
             Key::Generate | Key::Entry | Key::Exit | Key::Macro | Key::Module | Key::Gate | Key::If | Key::Else => true,
             Key::Then | Key::Do | Key::Abort | Key::Active | Key::For | Key::Next => true,
@@ -256,14 +260,17 @@ pub const DECLARATION_WORDS: [(&str, Key); 33] = [
 ];
 
 /// The words of nets: reserved in `.net` files.
-pub const NET_WORDS: [(&str, Key); 47] = [
+pub const NET_WORDS: [(&str, Key); 51] = [
     ("END", Key::End),
     ("int", Key::Int),
     ("real", Key::Real),
     ("AFTER", Key::After),
     ("TO", Key::Upto),
     ("MOMENTARY", Key::Momentary),
+    ("MODE", Key::Mode),
     ("START", Key::Start),
+    ("STOP", Key::Stop),
+    ("HOLD", Key::Hold),
     ("LOCAL", Key::Local),
     ("CLASS", Key::Class),
     ("STATE", Key::State),
@@ -299,12 +306,16 @@ pub const NET_WORDS: [(&str, Key); 47] = [
     ("PERMIT", Key::Permit),
     ("ABORT", Key::Abort),
     ("ACTIVE", Key::Active),
+    ("BLOCKED", Key::Blocked),
     ("FOR", Key::For),
     ("NEXT", Key::Next),
     ("AND", Key::And),
     ("OR", Key::Or),
     ("NOT", Key::Not),
 ];
+
+/// The reserved words of a kind of file.
+pub type ReservedWords = &'static [(&'static str, Key)];
 
 /// A token and its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -109,7 +109,8 @@ impl Point {
     /// The name of an element that has one of its own: `tank.S0`.
     pub fn element_name(&self, element: u32) -> Option<String> {
         let name = self.elements.get(element as usize)?;
-        Some(format!("{}{name}", self.name.strip_suffix(BOX_OUTPUT).unwrap_or(&self.name)))
+        let owner = self.name.strip_suffix(BOX_OUTPUT).and_then(|owner| owner.strip_suffix('.'));
+        Some(format!("{}.{name}", owner.unwrap_or(&self.name)))
     }
 }
 

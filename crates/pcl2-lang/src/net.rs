@@ -6,6 +6,7 @@
 //! body, behind its ports, in the order of [`Net::signals`].
 
 pub mod table;
+pub mod written;
 
 use crate::source::Span;
 use crate::types::{Scalar, Shape, Type, Value};
@@ -42,6 +43,12 @@ pub struct Net {
     pub outputs: usize,
     /// Commands that a gate clears when it fires: the port, and the word that takes its value in each scan.
     pub momentary: Vec<(u32, WordId)>,
+    /// By which an operator works it.
+    pub operation: Option<Operation>,
+    /// The output with the number of the first permissive term that kept a gate from firing; 0: none did.
+    pub blocked: Option<WordId>,
+    /// The gates in the order of the file.
+    pub numbered: Vec<GateId>,
     /// Where a macro's token comes in.
     pub entry: Option<BoxId>,
     /// Where a macro's token goes out.
@@ -57,6 +64,8 @@ pub struct Net {
 pub struct Touched {
     /// Outputs that it writes without reading them: two different values in one scan are a conflict.
     pub writes: Vec<WordId>,
+    /// Outputs that it writes and reads.
+    pub counts: Vec<WordId>,
     /// Boxes whose token it looks at or changes.
     pub looks: Vec<BoxId>,
 }
@@ -335,6 +344,18 @@ pub struct Active {
     pub boxes: Vec<BoxId>,
 }
 
+/// By which an operator works a net.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operation {
+    /// The port with the mode, and the word that takes its value in each scan: 0 automatic, 1 step by step, 2 manual,
+    /// else stopped.
+    pub mode: (u32, WordId),
+    /// Commands: a step, the number of a gate to fire, of a box to put a token into, of one to take a token from.
+    pub commands: [Option<WordId>; 4],
+    /// What outputs are while the net is stopped; the others hold.
+    pub stops: Vec<(WordId, Value)>,
+}
+
 /// A signal that a net keeps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetSignal {
@@ -361,6 +382,27 @@ impl Net {
     /// A box.
     pub fn place(&self, id: BoxId) -> &NetBox {
         &self.boxes[id.0 as usize]
+    }
+
+    /// Whether it has modes or tells of permissives.
+    pub fn operated(&self) -> bool {
+        self.operation.is_some() || self.blocked.is_some()
+    }
+
+    /// The ports whose value a word takes in each scan.
+    pub fn latched(&self) -> impl Iterator<Item = (u32, WordId)> {
+        self.momentary.iter().copied().chain(self.operation.iter().map(|operation| operation.mode))
+    }
+
+    /// By gate: the number of its first permissive term, counted from 1 through the gates in the order of the file.
+    pub fn first_terms(&self) -> Vec<u32> {
+        let mut first = vec![0; self.gates.len()];
+        let mut next = 1;
+        for gate in &self.numbered {
+            first[gate.0 as usize] = next;
+            next += self.gates[gate.0 as usize].permits.len() as u32;
+        }
+        first
     }
 
     /// The attributes of a box's tokens.

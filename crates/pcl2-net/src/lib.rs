@@ -5,8 +5,11 @@
 
 pub mod analysis;
 mod check;
+pub mod export;
+pub mod flat;
 pub mod pnml;
 pub mod pt;
+pub mod report;
 pub mod space;
 pub mod structure;
 

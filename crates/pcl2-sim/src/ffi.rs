@@ -12,8 +12,8 @@
 //! * The tables of kernels are constants of this binary, written by `build.rs` from the same declarations.
 //! * The player of nets walks a table that `pcl2_lang::net::table` makes of a checked net, over arrays of the lengths that
 //!   `engine/net.rs` takes for it. It runs inside [`Bound::run`] too, and calls back into [`act`] and [`duration`] with
-//!   the host that it was given: these reach the storage through pointers alone. Hosts stand in boxes of their own until
-//!   [`Bound`] is dropped, and so do the tapes that they point to.
+//!   the net that it was given: these reach the storage through pointers alone. Nets, their hosts and the tapes that
+//!   these point to stay where they are until [`Bound`] is dropped.
 #![allow(unsafe_code)]
 
 use crate::health::{FaultAt, Health};
@@ -163,14 +163,17 @@ pub(crate) struct Script {
 pub(crate) struct NetPlan {
     /// The table.
     pub(crate) table: Vec<i32>,
-    /// box, taken, filled, used, phase, by, hold, since, ints, reals, wrote, active, active_since, lost, conflicts.
+    /// box, taken, filled, used, phase, by, hold, since, ints, reals, wrote, active, active_since, lost, conflicts; of a
+    /// net with modes also stood, halted, forced, refused.
     pub(crate) arrays: Vec<Slot>,
     /// Where each word is.
     pub(crate) words: Vec<usize>,
     /// Where the attributes of tokens in hand are.
     pub(crate) hands: Vec<usize>,
-    /// The nets inside.
-    pub(crate) parts: Vec<usize>,
+    /// The net around it.
+    pub(crate) outer: Option<usize>,
+    /// The statement of that net that takes the inputs in.
+    pub(crate) inputs: i32,
     /// Its statements.
     pub(crate) scripts: Vec<Script>,
     /// What takes in its inputs, on the tape of statements.
@@ -185,35 +188,41 @@ pub(crate) struct NetPlan {
 #[repr(C)]
 struct Player {
     table: *const i32,
+    base: *mut u8,
     arrays: [*mut c_void; ROW],
-    words: *const *mut c_void,
-    hands: *const *mut c_void,
+    words: *const usize,
+    hands: *const usize,
     wrote: *mut c_void,
     active: *mut c_void,
     active_since: *mut c_void,
-    parts: *const *mut Player,
+    outer: *const Player,
+    inputs: i32,
     now: i64,
+    mode: i32,
+    blocked: i32,
+    switched: i32,
     status: *mut i32,
     lost: *mut c_void,
     conflicts: *mut c_void,
-    act: unsafe extern "C" fn(*mut c_void, i32) -> i32,
-    duration: unsafe extern "C" fn(*mut c_void, i32) -> i64,
-    host: *mut c_void,
+    operated: [*mut c_void; OPERATED],
+    act: unsafe extern "C" fn(*const Player, i32) -> i32,
+    duration: unsafe extern "C" fn(*const Player, i32) -> i64,
+    host: *const c_void,
 }
 
 /// How many of a net's arrays stand one after the other in `struct pcl2_net`: from `box` to `reals`.
 const ROW: usize = 10;
 
+/// How many arrays stand behind those.
+const MORE: usize = 5;
+
+/// How many more a net with modes has.
+const OPERATED: usize = 4;
+
 unsafe extern "C" {
-    fn pcl2_net_boxes(net: *mut Player);
-    fn pcl2_net_gates(net: *mut Player);
-    fn pcl2_net_commit(net: *mut Player);
-    fn pcl2_net_levels(net: *mut Player);
+    fn pcl2_net_scan(nets: *mut Player, n: i32, now: *mut i64, period: i64);
     fn pcl2_net_nanoseconds(seconds: *const f64) -> i64;
-    fn pcl2f_net_boxes(net: *mut Player);
-    fn pcl2f_net_gates(net: *mut Player);
-    fn pcl2f_net_commit(net: *mut Player);
-    fn pcl2f_net_levels(net: *mut Player);
+    fn pcl2f_net_scan(nets: *mut Player, n: i32, now: *mut i64, period: i64);
     fn pcl2f_net_nanoseconds(seconds: *const f32) -> i64;
 }
 
@@ -232,24 +241,23 @@ struct BareScript {
     reals: Vec<*const c_void>,
 }
 
-/// What the player's calls back find: one for each net, never moved.
+/// What the player's calls back find: one for each net.
 struct Host {
-    player: Player,
     tape: *const Bare,
     scripts: Vec<BareScript>,
     latch: Range<usize>,
     period: i64,
     width: Width,
-    _lists: [Vec<*mut c_void>; 2],
-    _parts: Vec<*mut Player>,
-    _table: Vec<i32>,
+    table: Vec<i32>,
+    words: Vec<usize>,
+    hands: Vec<usize>,
 }
 
 /// Runs a statement: of a condition its truth.
-unsafe extern "C" fn act(host: *mut c_void, script: i32) -> i32 {
-    // SAFETY: the player hands back the host that it was given, and indexes of its own table.
+unsafe extern "C" fn act(net: *const Player, script: i32) -> i32 {
+    // SAFETY: the player hands back the net that it was given, and indexes of its own table.
     unsafe {
-        let host = host.cast::<Host>();
+        let host = (*net).host.cast::<Host>();
         let script: *const BareScript = (*host).scripts.as_ptr().add(script as usize);
         for i in (*script).ops.clone() {
             perform(&*(*host).tape.add(i));
@@ -269,12 +277,11 @@ unsafe extern "C" fn act(host: *mut c_void, script: i32) -> i32 {
 }
 
 /// The value of a statement, seconds, as nanoseconds.
-unsafe extern "C" fn duration(host: *mut c_void, script: i32) -> i64 {
+unsafe extern "C" fn duration(net: *const Player, script: i32) -> i64 {
     // SAFETY: as for `act`.
     unsafe {
-        act(host, script);
-        let host = host.cast::<Host>();
-        let script: *const BareScript = (*host).scripts.as_ptr().add(script as usize);
+        act(net, script);
+        let script: *const BareScript = (*(*net).host.cast::<Host>()).scripts.as_ptr().add(script as usize);
         match (*script).answer {
             Returned::None => 0,
             Returned::Int(at) => i64::from(*at).max(0).saturating_mul(1_000_000_000),
@@ -284,43 +291,21 @@ unsafe extern "C" fn duration(host: *mut c_void, script: i32) -> i64 {
     }
 }
 
-/// One scan of a net and of those in it, outer ones first.
-unsafe fn play(hosts: &[*mut Host], tape: &[Bare]) {
-    // SAFETY: as for `Bound::run`; each host lives in a box of its own.
+/// One scan of a net and of those in it, outer ones first. The first takes its inputs in here, the others are told to by
+/// the player.
+unsafe fn play(nets: *mut Player, count: i32, tape: &[Bare]) {
+    // SAFETY: as for `Bound::run`; the nets stand one after the other, and each host lives in a box of its own.
     unsafe {
-        for host in hosts {
-            for op in &tape[(**host).latch.clone()] {
-                perform(op);
-            }
-            *(**host).player.status = 0;
-            phase(*host, pcl2_net_boxes, pcl2f_net_boxes);
+        let host = (*nets).host.cast::<Host>();
+        for op in &tape[(*host).latch.clone()] {
+            perform(op);
         }
-        for host in hosts {
-            phase(*host, pcl2_net_gates, pcl2f_net_gates);
-        }
-        for host in hosts {
-            phase(*host, pcl2_net_commit, pcl2f_net_commit);
-        }
-        for host in hosts.iter().rev() {
-            phase(*host, pcl2_net_levels, pcl2f_net_levels);
-            (**host).player.now = (**host).player.now.saturating_add((**host).period);
-            if (**host).player.status != (*hosts[0]).player.status && *(*hosts[0]).player.status == 0 {
-                *(*hosts[0]).player.status = *(**host).player.status;
-            }
-        }
-    }
-}
-
-type Phase = unsafe extern "C" fn(*mut Player);
-
-unsafe fn phase(host: *mut Host, wide: Phase, narrow: Phase) {
-    // SAFETY: as for `play`.
-    unsafe {
-        let player = &raw mut (*host).player;
+        let mut now = (*nets).now;
         match (*host).width {
-            Width::F64 => wide(player),
-            Width::F32 => narrow(player),
+            Width::F64 => pcl2_net_scan(nets, count, &raw mut now, (*host).period),
+            Width::F32 => pcl2f_net_scan(nets, count, &raw mut now, (*host).period),
         }
+        (*nets).now = now;
     }
 }
 
@@ -380,7 +365,7 @@ enum Bare {
     Clear(*mut i32),
     Carry(*const i32, *mut i32),
     Fault(*const i32, u32),
-    Net(usize, usize),
+    Net(usize, i32),
 }
 
 /// A plan with its storage.
@@ -389,15 +374,16 @@ pub(crate) struct Bound {
     /// Read by the thunks.
     _pointers: Vec<*mut c_void>,
     tapes: [Vec<Bare>; TAPES],
-    hosts: Vec<*mut Host>,
+    nets: *mut Player,
+    /// What the nets point to.
+    hosts: Vec<Host>,
 }
 
 impl Drop for Bound {
     fn drop(&mut self) {
-        for host in self.hosts.drain(..) {
-            // SAFETY: each pointer came from a box in `new` and is dropped once.
-            drop(unsafe { Box::from_raw(host) });
-        }
+        let nets = std::ptr::slice_from_raw_parts_mut(self.nets, self.hosts.len());
+        // SAFETY: the pointer came from a box of this length in `Bound::join` and is dropped once.
+        drop(unsafe { Box::from_raw(nets) });
     }
 }
 
@@ -421,33 +407,13 @@ impl Bound {
             *bare =
                 ops.iter().map(|op| storage.bind(*op, &plan.arguments, &pointers, width)).collect::<Result<_, _>>()?;
         }
-        let mut bound = Bound { words, _pointers: pointers, tapes, hosts: Vec::new() };
-        for net in &plan.nets {
-            let host = storage.host(net, &bound.tapes[Tape::Script as usize], width)?;
-            bound.hosts.push(Box::into_raw(Box::new(host)));
-        }
-        bound.join(plan)?;
-        Ok(bound)
-    }
-
-    /// Gives each net those inside it, and itself to its calls back.
-    fn join(&mut self, plan: &Plan) -> Result<(), NoRoom> {
-        for (i, net) in plan.nets.iter().enumerate() {
-            let mut parts = Vec::with_capacity(net.parts.len());
-            for part in &net.parts {
-                let inner = *self.hosts.get(*part).ok_or(NoRoom::Outside)?;
-                // SAFETY: the host lives as long as `self`.
-                parts.push(unsafe { &raw mut (*inner).player });
-            }
-            let host = self.hosts[i];
-            // SAFETY: no other reference to the host exists here.
-            unsafe {
-                (*host)._parts = parts;
-                (*host).player.parts = (*host)._parts.as_ptr();
-                (*host).player.host = host.cast();
-            }
-        }
-        Ok(())
+        let script = &tapes[Tape::Script as usize];
+        let hosts: Vec<Host> =
+            plan.nets.iter().map(|net| storage.host(net, script, width)).collect::<Result<_, _>>()?;
+        let players = plan.nets.iter().zip(&hosts).map(|(net, host)| storage.player(net, host));
+        let players = players.collect::<Result<_, _>>()?;
+        let nets = join(players, plan)?;
+        Ok(Bound { words, _pointers: pointers, tapes, nets, hosts })
     }
 
     /// How many things a tape has to do.
@@ -471,7 +437,7 @@ impl Bound {
                         }
                     }
                     Bare::Net(first, count) => {
-                        play(&self.hosts[*first..first + count], &self.tapes[Tape::Script as usize]);
+                        play(self.nets.add(*first), *count, &self.tapes[Tape::Script as usize]);
                     }
                     other => perform(other),
                 }
@@ -534,6 +500,24 @@ unsafe fn perform(op: &Bare) {
     }
 }
 
+/// Puts the nets one after the other and gives each the net around it.
+fn join(players: Vec<Player>, plan: &Plan) -> Result<*mut Player, NoRoom> {
+    let nets = Box::into_raw(players.into_boxed_slice()).cast::<Player>();
+    for (i, net) in plan.nets.iter().enumerate() {
+        let Some(outer) = net.outer else {
+            continue;
+        };
+        if outer >= i {
+            return Err(NoRoom::Outside);
+        }
+        // SAFETY: both stand in the box, which has as many nets as the plan.
+        unsafe {
+            (*nets.add(i)).outer = nets.add(outer);
+        }
+    }
+    Ok(nets)
+}
+
 /// The allocation as C sees it.
 #[derive(Clone, Copy)]
 struct Storage {
@@ -575,49 +559,66 @@ impl Storage {
         if slots.iter().all(one_real) { Ok((places.as_ptr(), inputs)) } else { Err(NoRoom::Outside) }
     }
 
-    /// A net's player, with its arrays, lists and statements; the nets inside are joined later.
+    /// What a net's statements need.
     fn host(self, net: &NetPlan, tape: &[Bare], width: Width) -> Result<Host, NoRoom> {
-        let mut arrays = Vec::with_capacity(net.arrays.len());
-        for slot in &net.arrays {
-            arrays.push(self.place::<u64>(slot.at, slot.bytes.max(8)).map(<*mut u64>::cast::<c_void>)?);
+        for at in net.words.iter().chain(&net.hands) {
+            self.place::<i32>(*at, 4)?;
         }
-        let list = |places: &[usize]| places.iter().map(|at| self.place::<i32>(*at, 4).map(<*mut i32>::cast)).collect();
-        let lists: [Vec<*mut c_void>; 2] = [list(&net.words), list(&net.hands)]
-            .map(|list: Result<_, _>| list)
-            .into_iter()
-            .collect::<Result<Vec<_>, NoRoom>>()?
-            .try_into()
-            .map_err(|_| NoRoom::Outside)?;
         let mut scripts = Vec::with_capacity(net.scripts.len());
         for script in &net.scripts {
             scripts.push(self.script(script, tape.len(), width)?);
         }
-        if net.latch.end > tape.len() || arrays.len() != ROW + 5 {
+        if net.latch.end > tape.len() {
             return Err(NoRoom::Outside);
         }
+        Ok(Host {
+            tape: tape.as_ptr(),
+            scripts,
+            latch: net.latch.clone(),
+            period: net.period,
+            width,
+            table: net.table.clone(),
+            words: net.words.clone(),
+            hands: net.hands.clone(),
+        })
+    }
+
+    /// A net as the player sees it; the net around it is filled in by `join`.
+    fn player(self, net: &NetPlan, host: &Host) -> Result<Player, NoRoom> {
+        let mut arrays = Vec::with_capacity(net.arrays.len());
+        for slot in &net.arrays {
+            arrays.push(self.place::<u64>(slot.at, slot.bytes.max(8)).map(<*mut u64>::cast::<c_void>)?);
+        }
+        if arrays.len() != ROW + MORE && arrays.len() != ROW + MORE + OPERATED {
+            return Err(NoRoom::Outside);
+        }
+        let mut operated = [std::ptr::null_mut(); OPERATED];
+        operated[..arrays.len() - ROW - MORE].copy_from_slice(&arrays[ROW + MORE..]);
         let mut row = [std::ptr::null_mut(); ROW];
         row.copy_from_slice(&arrays[..ROW]);
-        let table = net.table.clone();
-        let player = Player {
-            table: table.as_ptr(),
+        Ok(Player {
+            table: host.table.as_ptr(),
+            base: self.base,
             arrays: row,
-            words: lists[0].as_ptr(),
-            hands: lists[1].as_ptr(),
+            words: host.words.as_ptr(),
+            hands: host.hands.as_ptr(),
             wrote: arrays[ROW],
             active: arrays[ROW + 1],
             active_since: arrays[ROW + 2],
-            parts: std::ptr::null(),
+            outer: std::ptr::null(),
+            inputs: net.inputs,
             now: 0,
+            mode: 0,
+            blocked: 0,
+            switched: 0,
             status: self.place(net.status, 4)?,
             lost: arrays[ROW + 3],
             conflicts: arrays[ROW + 4],
+            operated,
             act,
             duration,
-            host: std::ptr::null_mut(),
-        };
-        let (latch, period) = (net.latch.clone(), net.period);
-        let tape = tape.as_ptr();
-        Ok(Host { player, tape, scripts, latch, period, width, _lists: lists, _parts: Vec::new(), _table: table })
+            host: std::ptr::from_ref(host).cast(),
+        })
     }
 
     fn script(self, script: &Script, tape: usize, width: Width) -> Result<BareScript, NoRoom> {
@@ -660,7 +661,7 @@ impl Storage {
             Op::Clear { at } => Bare::Clear(self.place(at, 4)?),
             Op::Carry { from, to } => Bare::Carry(self.place(from, 4)?, self.place(to, 4)?),
             Op::Fault { at, block } => Bare::Fault(self.place(at, 4)?, block),
-            Op::Net { first, count } => Bare::Net(first, count),
+            Op::Net { first, count } => Bare::Net(first, i32::try_from(count).map_err(|_| NoRoom::Outside)?),
         })
     }
 }

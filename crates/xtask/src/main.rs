@@ -24,6 +24,12 @@ enum Command {
     Test,
     /// Measure, and hold the numbers against the bars
     Bench(bench::BenchArgs),
+    /// Compare the engines and the forms of the C over many random nets
+    Nets {
+        /// How many
+        #[arg(default_value_t = 100_000)]
+        count: u32,
+    },
     /// Write docs/blocks.md from the declarations
     Docs,
     /// Begin a function code: blocks/GROUP/CODE.fc and its kernel
@@ -44,6 +50,7 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Test => suite::test(),
         Command::Bench(args) => bench::bench(&args),
+        Command::Nets { count } => suite::nets(count),
         Command::Docs => manual::docs(),
         Command::NewBlock { group, code } => scaffold::new_block(&group, &code),
         Command::NewCase { name } => scaffold::new_case(&name),

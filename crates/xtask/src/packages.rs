@@ -4,10 +4,11 @@ use crate::shell::{found, run, say};
 use std::process::Command;
 
 /// A program that the tests call, and the Debian package that has it.
-const NEEDED: [(&str, &str); 6] = [
+const NEEDED: [(&str, &str); 7] = [
     ("gcc", "gcc"),
     ("g++", "g++"),
     ("clang", "clang"),
+    ("tcc", "tcc"),
     ("make", "make"),
     ("arm-none-eabi-gcc", "gcc-arm-none-eabi"),
     ("qemu-system-arm", "qemu-system-arm"),

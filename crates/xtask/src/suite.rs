@@ -14,6 +14,13 @@ pub(crate) fn test() -> Result<(), String> {
     run(cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"]).env("INSTA_UPDATE", "no"))
 }
 
+/// The long form of the comparison of random nets.
+pub(crate) fn nets(count: u32) -> Result<(), String> {
+    packages::install()?;
+    let test = ["test", "--release", "-p", "pcl2-tests", "--test", "nets_random", "--locked", "random_nets"];
+    run(cargo().args(test).env("PCL2_RANDOM_NETS", count.to_string()))
+}
+
 /// Adds the formatter and the linter to a toolchain that came without them.
 fn components() -> Result<(), String> {
     let has = |tool: &str| cargo().args([tool, "--version"]).output().is_ok_and(|output| output.status.success());

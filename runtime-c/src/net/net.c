@@ -6,56 +6,60 @@
  * gate    befores, afters, reads, inhibits, permits, rules; (box, weight) of each before and after;
  *         (part + 1, box, weight) of each read and inhibit; permits; then of each rule: condition + 1,
  *         n, boxes whose tokens it looks at, n, words that it clears, n, moves (before + 1, n, afters), n, statements
- * statement  n, words that it writes and that may conflict, n, boxes whose token it looks at
+ * statement  n, words that it writes and that may conflict, n, words that it counts on,
+ *         n, boxes whose token it looks at
  * class   n, of each attribute 0 an int, 1 a real
  * levels  n, of each: word, n, boxes, n, (part, output)
  * actives n, of each: word, word of the time + 1, n, boxes
- * parts   n, of each: entry, exit, boxes, box of the macro + 1, abort: condition + 1, box, n, statements;
- *         n, (output, word) */
+ * parts   n, of each: entry, exit, how far behind the net it stands, box of the macro + 1,
+ *         abort: condition + 1, box, n, statements; n, (output, word)
+ * operated  words, each + 1: of BLOCKED, of the mode, of the commands go, fire, put, take; n, of each word that has a
+ *         value of its own while the net is stopped: word, its place among the attributes; the gates in the order of
+ *         the file; by gate the number of its first permissive term */
 #include "pcl2_net.h"
 
-#define ORDER_FIFO 0
-#define ORDER_LIFO 1
-#define ORDER_LEAST 2
+#define NET_ORDER_FIFO 0
+#define NET_ORDER_LIFO 1
+#define NET_ORDER_LEAST 2
 
-#define PHASE_NEW 0
-#define PHASE_DONE 1 /* of a time or an action box: excited */
-#define PHASE_WAITING 1
-#define PHASE_READY 2
+#define NET_OPERATED_BLOCKED 0
+#define NET_OPERATED_MODE 1
+#define NET_OPERATED_GO 2
+#define NET_OPERATED_FIRE 3
+#define NET_OPERATED_PUT 4
+#define NET_OPERATED_TAKE 5
+#define NET_OPERATED_STOPS 6
 
-static const pcl2_net_word *record(const struct pcl2_net *net, int32_t list, int32_t index)
+
+static const pcl2_net_word *net_record(const struct pcl2_net *net, int32_t list, int32_t index)
 {
     return net->table + net->table[net->table[list] + index];
 }
 
-static const pcl2_net_word *box_record(const struct pcl2_net *net, int32_t b)
+static const pcl2_net_word *net_box_record(const struct pcl2_net *net, int32_t b)
 {
-    return record(net, PCL2_NET_BOXES, b);
+    return net_record(net, PCL2_NET_BOXES, b);
 }
 
-static void fault(struct pcl2_net *net, int32_t status)
+static void *net_word_at(const struct pcl2_net *net, int32_t word)
 {
-    if (*net->status == 0) {
-        *net->status = status;
-    }
+    return net->base + net->words[word];
 }
 
-static void count(int32_t *counter)
+static void *net_hand_at(const struct pcl2_net *net, int32_t hand)
 {
-    if (*counter != INT32_MAX) {
-        ++*counter;
-    }
+    return net->base + net->hands[hand];
 }
 
 /* Tokens. */
 
-static const pcl2_net_word *class_of(const struct pcl2_net *net, const pcl2_net_word *box)
+static const pcl2_net_word *net_class_of(const struct pcl2_net *net, const pcl2_net_word *box)
 {
-    return box[1] == 0 ? NULL : record(net, PCL2_NET_CLASSES, box[1] - 1);
+    return box[1] == 0 ? NULL : net_record(net, PCL2_NET_CLASSES, box[1] - 1);
 }
 
 /* How many ints and reals a token of a class has. */
-static void sizes_of(const pcl2_net_word *class, int32_t *ints, int32_t *reals)
+static void net_sizes_of(const pcl2_net_word *class, int32_t *ints, int32_t *reals)
 {
     *ints = 0;
     *reals = 0;
@@ -64,18 +68,18 @@ static void sizes_of(const pcl2_net_word *class, int32_t *ints, int32_t *reals)
     }
 }
 
-static void load(struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
+static void net_load(struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
 {
-    const pcl2_net_word *class = class_of(net, box);
+    const pcl2_net_word *class = net_class_of(net, box);
     int32_t ints, reals;
     if (class == NULL) {
         return;
     }
-    sizes_of(class, &ints, &reals);
+    net_sizes_of(class, &ints, &reals);
     const int32_t *from_ints = net->ints + box[5] + place * ints;
     const pcl2_real *from_reals = net->reals + box[6] + place * reals;
     for (int32_t i = 1; i <= class[0]; i++) {
-        void *hand = net->hands[box[7] + i - 1];
+        void *hand = net_hand_at(net, box[7] + i - 1);
         if (class[i] == 0) {
             *(int32_t *)hand = *from_ints++;
         } else {
@@ -85,18 +89,18 @@ static void load(struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
 }
 
 /* Puts what stands in the hand of one box into a place of another of the same class. */
-static void store(struct pcl2_net *net, const pcl2_net_word *from, const pcl2_net_word *box, int32_t place)
+static void net_store(struct pcl2_net *net, const pcl2_net_word *from, const pcl2_net_word *box, int32_t place)
 {
-    const pcl2_net_word *class = class_of(net, box);
+    const pcl2_net_word *class = net_class_of(net, box);
     int32_t ints, reals;
     if (class == NULL) {
         return;
     }
-    sizes_of(class, &ints, &reals);
+    net_sizes_of(class, &ints, &reals);
     int32_t *to_ints = net->ints + box[5] + place * ints;
     pcl2_real *to_reals = net->reals + box[6] + place * reals;
     for (int32_t i = 1; i <= class[0]; i++) {
-        const void *hand = net->hands[from[7] + i - 1];
+        const void *hand = net_hand_at(net, from[7] + i - 1);
         if (class[i] == 0) {
             *to_ints++ = *(const int32_t *)hand;
         } else {
@@ -106,18 +110,18 @@ static void store(struct pcl2_net *net, const pcl2_net_word *from, const pcl2_ne
 }
 
 /* The tokens that can still be taken. */
-static int32_t left(const struct pcl2_net *net, int32_t b)
+static int32_t net_left(const struct pcl2_net *net, int32_t b)
 {
     return net->box[b] - net->taken[b];
 }
 
 /* The value by which tokens are ordered; one that is no number goes last. */
-static pcl2_real key_of(const struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
+static pcl2_real net_key_of(const struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
 {
-    const pcl2_net_word *class = class_of(net, box);
+    const pcl2_net_word *class = net_class_of(net, box);
     int32_t ints, reals, before[2] = {0, 0};
     pcl2_real key;
-    sizes_of(class, &ints, &reals);
+    net_sizes_of(class, &ints, &reals);
     for (int32_t i = 1; i <= box[4]; i++) {
         before[class[i]] += 1;
     }
@@ -126,27 +130,27 @@ static pcl2_real key_of(const struct pcl2_net *net, const pcl2_net_word *box, in
     } else {
         key = net->reals[box[6] + place * reals + before[1]];
     }
-    key = box[3] == ORDER_LEAST ? key : -key;
+    key = box[3] == NET_ORDER_LEAST ? key : -key;
     return key == key ? key : PCL2_REAL_MAX;
 }
 
 /* The token that goes after another (-1: the first); -1: there is none. */
-static int32_t next_token(const struct pcl2_net *net, int32_t b, int32_t after)
+static int32_t net_next_token(const struct pcl2_net *net, int32_t b, int32_t after)
 {
-    const pcl2_net_word *box = box_record(net, b);
-    const int32_t n = left(net, b);
+    const pcl2_net_word *box = net_box_record(net, b);
+    const int32_t n = net_left(net, b);
     int32_t best = -1;
-    if (box[1] == 0 || box[3] == ORDER_FIFO) {
+    if (box[1] == 0 || box[3] == NET_ORDER_FIFO) {
         return after + 1 < n ? after + 1 : -1;
     }
-    if (box[3] == ORDER_LIFO) {
+    if (box[3] == NET_ORDER_LIFO) {
         return after < 0 ? n - 1 : after - 1;
     }
     for (int32_t i = 0; i < n; i++) {
-        const pcl2_real key = key_of(net, box, i);
-        const pcl2_real last = after < 0 ? key : key_of(net, box, after);
+        const pcl2_real key = net_key_of(net, box, i);
+        const pcl2_real last = after < 0 ? key : net_key_of(net, box, after);
         const int32_t later = after < 0 || key > last || (key == last && i > after);
-        if (later && (best < 0 || key < key_of(net, box, best))) {
+        if (later && (best < 0 || key < net_key_of(net, box, best))) {
             best = i;
         }
     }
@@ -154,89 +158,218 @@ static int32_t next_token(const struct pcl2_net *net, int32_t b, int32_t after)
 }
 
 /* Closes the gap that a token leaves. */
-static void remove_token(struct pcl2_net *net, int32_t b, int32_t place)
+static void net_remove_token(struct pcl2_net *net, int32_t b, int32_t place)
 {
-    const pcl2_net_word *box = box_record(net, b), *class = class_of(net, box);
-    const int32_t n = left(net, b) + net->filled[b];
+    const pcl2_net_word *box = net_box_record(net, b), *class = net_class_of(net, box);
+    const int32_t n = net_left(net, b) + net->filled[b];
     int32_t ints, reals;
     if (class != NULL) {
-        sizes_of(class, &ints, &reals);
+        net_sizes_of(class, &ints, &reals);
         const size_t behind = (size_t)(n - place - 1);
-        int32_t *first_int = net->ints + box[5] + place * ints;
-        pcl2_real *first_real = net->reals + box[6] + place * reals;
-        memmove(first_int, first_int + ints, behind * (size_t)ints * sizeof *first_int);
-        memmove(first_real, first_real + reals, behind * (size_t)reals * sizeof *first_real);
+        /* A net without attributes of a type has no array of it. */
+        if (ints > 0) {
+            int32_t *first = net->ints + box[5] + place * ints;
+            memmove(first, first + ints, behind * (size_t)ints * sizeof *first);
+        }
+        if (reals > 0) {
+            pcl2_real *first = net->reals + box[6] + place * reals;
+            memmove(first, first + reals, behind * (size_t)reals * sizeof *first);
+        }
     }
     net->taken[b] = box[0] == PCL2_NET_COUNT ? net->box[b] : net->taken[b] + 1;
 }
 
-/* Statements. */
+/* Modes. */
 
-static int32_t same(const struct pcl2_net *net, int32_t word, const void *value)
+static const pcl2_net_word *net_operated(const struct pcl2_net *net)
 {
-    const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
-    return memcmp(net->words[word], value, real ? sizeof(pcl2_real) : sizeof(int32_t)) == 0;
+    const int32_t at = net->table[PCL2_NET_OPERATED];
+    return at == 0 ? NULL : net->table + at;
 }
 
-static void keep(const struct pcl2_net *net, int32_t word, void *value, int32_t back)
+/* The record of a net that has a mode of its own. */
+static const pcl2_net_word *net_modes(const struct pcl2_net *net)
+{
+    const pcl2_net_word *operated = net_operated(net);
+    return operated != NULL && operated[NET_OPERATED_MODE] != 0 ? operated : NULL;
+}
+
+static const pcl2_net_word *net_gates_in_file(const pcl2_net_word *operated)
+{
+    return operated + NET_OPERATED_STOPS + 1 + 2 * operated[NET_OPERATED_STOPS];
+}
+
+/* What a command says; it is cleared, since it is obeyed or refused. */
+static int32_t net_command(struct pcl2_net *net, const pcl2_net_word *modes, int32_t which)
+{
+    if (modes[which] == 0) {
+        return 0;
+    }
+    int32_t *word = net_word_at(net, modes[which] - 1);
+    const int32_t command = *word;
+    *word = 0;
+    return command;
+}
+
+static void net_record_command(struct pcl2_net *net, int32_t obeyed)
+{
+    pcl2_net_fault(net->status, obeyed ? PCL2_NET_FORCED : PCL2_NET_REFUSED);
+    pcl2_net_count(obeyed ? net->forced : net->refused);
+}
+
+static void net_refuse(struct pcl2_net *net, const pcl2_net_word *modes, int32_t first, int32_t last)
+{
+    for (int32_t which = first; which <= last; which++) {
+        if (net_command(net, modes, which) != 0) {
+            net_record_command(net, 0);
+        }
+    }
+}
+
+/* The mode of a scan; commands of other modes are refused. */
+static int32_t net_mode(struct pcl2_net *net, const pcl2_net_word *modes)
+{
+    const int32_t mode = *(const int32_t *)net_word_at(net, modes[NET_OPERATED_MODE] - 1);
+    int32_t go = 0;
+    if (mode == PCL2_NET_STEP) {
+        go = net_command(net, modes, NET_OPERATED_GO);
+    }
+    net_refuse(net, modes, NET_OPERATED_GO, mode == PCL2_NET_MANUAL ? NET_OPERATED_GO : NET_OPERATED_TAKE);
+    if (mode == PCL2_NET_STEP) {
+        return go != 0 ? PCL2_NET_AUTOMATIC : PCL2_NET_STEP;
+    }
+    return mode == PCL2_NET_AUTOMATIC || mode == PCL2_NET_MANUAL ? mode : PCL2_NET_STOPPED;
+}
+
+/* Outputs and what they are while the net is stopped change places: the one that is not used stands aside. */
+static void net_swap(struct pcl2_net *net, const pcl2_net_word *modes)
+{
+    const pcl2_net_word *stop = modes + NET_OPERATED_STOPS + 1;
+    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 2) {
+        const int32_t real = net->table[net->table[PCL2_NET_WORDS] + stop[0]] & 1;
+        void *aside = real ? (void *)(net->reals + stop[1]) : (void *)(net->ints + stop[1]), *word;
+        const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
+        pcl2_real kept;
+        word = net_word_at(net, stop[0]);
+        memcpy(&kept, word, size);
+        memcpy(word, aside, size);
+        memcpy(aside, &kept, size);
+    }
+}
+
+/* Takes the inputs in. A net inside has the mode and the time of the one around it unless it has a mode of its own. */
+static void net_begin(struct pcl2_net *net, int64_t now)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    const int32_t n = net->table[PCL2_NET_N_WORDS];
+    *net->status = 0;
+    net->blocked = 0;
+    net->switched = 0;
+    net->now = now;
+    net->mode = PCL2_NET_AUTOMATIC;
+    if (n != 0) {
+        memset(net->wrote, 0, (size_t)n * sizeof *net->wrote);
+    }
+    if (net->outer != NULL) {
+        (void)net->outer->act(net->outer, net->inputs);
+        net->now = net->outer->now;
+        net->mode = net->outer->mode;
+    }
+    if (modes != NULL) {
+        net->now = now - *net->stood;
+        net->mode = net_mode(net, modes);
+        if (*net->halted) {
+            net_swap(net, modes);
+        }
+    }
+}
+
+/* A stopped net shows what its outputs are meanwhile, and its time stands. */
+static void net_end(struct pcl2_net *net, int64_t period)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    if (modes == NULL) {
+        return;
+    }
+    const int32_t stopped = net->mode == PCL2_NET_STOPPED;
+    if (stopped) {
+        net_swap(net, modes);
+        *net->stood = *net->stood > INT64_MAX - period ? INT64_MAX : *net->stood + period;
+    }
+    net->switched = *net->halted != stopped;
+    *net->halted = stopped;
+}
+
+/* Statements. */
+
+static int32_t net_same(const struct pcl2_net *net, int32_t word, const void *value)
+{
+    const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
+    return memcmp(net_word_at(net, word), value, real ? sizeof(pcl2_real) : sizeof(int32_t)) == 0;
+}
+
+static void net_keep(const struct pcl2_net *net, int32_t word, void *value, int32_t back)
 {
     const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
     const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
-    memcpy(back ? net->words[word] : value, back ? value : net->words[word], size);
+    memcpy(back ? net_word_at(net, word) : value, back ? value : net_word_at(net, word), size);
 }
 
 /* A word has a new value: of two different ones in a scan that of the gate with the higher priority stays. */
-static void written(struct pcl2_net *net, int32_t word, int32_t gate, void *before)
+static void net_written(struct pcl2_net *net, int32_t word, int32_t gate, void *before)
 {
-    if (net->wrote[word] != 0 && !same(net, word, before)) {
-        fault(net, PCL2_NET_CONFLICT);
-        count(net->conflicts);
-        if (gate + 1 >= net->wrote[word]) {
-            keep(net, word, before, 1);
-            return;
-        }
-    }
-    if (net->wrote[word] == 0 || gate + 1 < net->wrote[word]) {
-        net->wrote[word] = gate + 1;
+    struct pcl2_net_writes writes = {&net->wrote[word], net->status, net->conflicts};
+    if (pcl2_net_yields(&writes, gate, !net_same(net, word, before))) {
+        net_keep(net, word, before, 1);
     }
 }
 
-#define MOST_TARGETS 16
+#define NET_MOST_TARGETS 16
+
+/* The boxes that a statement looks at. */
+static const pcl2_net_word *net_looks(const struct pcl2_net *net, int32_t script)
+{
+    const pcl2_net_word *counts = net_record(net, PCL2_NET_SCRIPTS, script);
+    counts += counts[0] + 1;
+    return counts + counts[0] + 1;
+}
 
 /* Runs a statement for a gate. Tokens that it looks at are in hand meanwhile. */
-static int32_t act(struct pcl2_net *net, int32_t script, int32_t gate)
+static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
 {
-    const pcl2_net_word *targets = record(net, PCL2_NET_SCRIPTS, script);
-    const pcl2_net_word *looks = targets + targets[0] + 1;
-    pcl2_real before[MOST_TARGETS];
+    const pcl2_net_word *targets = net_record(net, PCL2_NET_SCRIPTS, script), *counts = targets + targets[0] + 1;
+    const pcl2_net_word *looks = net_looks(net, script);
+    pcl2_real before[NET_MOST_TARGETS];
     for (int32_t i = 1; i <= looks[0]; i++) {
-        const int32_t first = net->hold[looks[i]] == 0 ? next_token(net, looks[i], -1) : -1;
+        const int32_t first = net->hold[looks[i]] == 0 ? net_next_token(net, looks[i], -1) : -1;
         if (first >= 0) {
             net->hold[looks[i]] = first + 1;
-            load(net, box_record(net, looks[i]), first);
+            net_load(net, net_box_record(net, looks[i]), first);
         }
     }
     for (int32_t i = 0; i < targets[0]; i++) {
-        keep(net, targets[i + 1], &before[i], 0);
+        net_keep(net, targets[i + 1], &before[i], 0);
     }
-    const int32_t result = net->act(net->host, script);
+    const int32_t result = net->act(net, script);
     for (int32_t i = 0; i < targets[0]; i++) {
-        written(net, targets[i + 1], gate, &before[i]);
+        net_written(net, targets[i + 1], gate, &before[i]);
+    }
+    for (int32_t i = 1; i <= counts[0]; i++) {
+        pcl2_net_counted(&net->wrote[counts[i]]);
     }
     for (int32_t i = 1; i <= looks[0]; i++) {
         if (net->hold[looks[i]] > 0) {
-            const pcl2_net_word *box = box_record(net, looks[i]);
-            store(net, box, box, net->hold[looks[i]] - 1);
+            const pcl2_net_word *box = net_box_record(net, looks[i]);
+            net_store(net, box, box, net->hold[looks[i]] - 1);
         }
     }
     return result;
 }
 
 /* Lets go of the tokens that a statement looked at. */
-static void release(struct pcl2_net *net, int32_t script)
+static void net_release(struct pcl2_net *net, int32_t script)
 {
-    const pcl2_net_word *targets = record(net, PCL2_NET_SCRIPTS, script);
-    const pcl2_net_word *looks = targets + targets[0] + 1;
+    const pcl2_net_word *looks = net_looks(net, script);
     for (int32_t i = 1; i <= looks[0]; i++) {
         if (net->hold[looks[i]] > 0) {
             net->hold[looks[i]] = 0;
@@ -244,17 +377,17 @@ static void release(struct pcl2_net *net, int32_t script)
     }
 }
 
-static int32_t run(struct pcl2_net *net, int32_t script, int32_t gate)
+static int32_t net_run(struct pcl2_net *net, int32_t script, int32_t gate)
 {
-    const int32_t result = act(net, script, gate);
-    release(net, script);
+    const int32_t result = net_act(net, script, gate);
+    net_release(net, script);
     return result;
 }
 
-static void run_all(struct pcl2_net *net, const pcl2_net_word *list, int32_t gate)
+static void net_run_all(struct pcl2_net *net, const pcl2_net_word *list, int32_t gate)
 {
     for (int32_t i = 1; i <= list[0]; i++) {
-        (void)run(net, list[i], gate);
+        (void)net_run(net, list[i], gate);
     }
 }
 
@@ -265,72 +398,72 @@ int64_t pcl2_net_nanoseconds(const pcl2_real *seconds)
 
 /* The box phase. */
 
-static void set_phase(struct pcl2_net *net, int32_t b, int32_t phase)
+static void net_set_phase(struct pcl2_net *net, int32_t b, int32_t phase)
 {
     net->phase[b] = (net->phase[b] & ~3) | phase;
 }
 
 /* Completion, timeout, and the answer of AFTER. */
-static void finish(struct pcl2_net *net, int32_t b, const pcl2_net_word *after, int32_t late)
+static void net_finish(struct pcl2_net *net, int32_t b, const pcl2_net_word *after, int32_t late)
 {
     const int32_t gate = net->phase[b] >> 2;
     int32_t ready = 1;
     if (late) {
-        fault(net, PCL2_NET_TIMEOUT);
+        pcl2_net_fault(net->status, PCL2_NET_TIMEOUT);
     }
     if (after[0] != 0) {
-        int32_t *cause = net->hands[after[after[0] + 1]], *answer = net->hands[after[after[0] + 1] + 1];
+        int32_t *cause = net_hand_at(net, after[after[0] + 1]), *answer = net_hand_at(net, after[after[0] + 1] + 1);
         *cause = late;
         *answer = 1;
-        run_all(net, after, gate);
+        net_run_all(net, after, gate);
         ready = *answer != 0;
     }
     net->since[b] = net->now;
-    set_phase(net, b, ready ? PHASE_READY : PHASE_WAITING);
+    net_set_phase(net, b, ready ? PCL2_NET_READY : PCL2_NET_RUNNING);
 }
 
-static void process(struct pcl2_net *net, int32_t b, const pcl2_net_word *more)
+static void net_process(struct pcl2_net *net, int32_t b, const pcl2_net_word *more)
 {
     const pcl2_net_word *enter = more + 2, *after = enter + enter[0] + 1;
-    if ((net->phase[b] & 3) == PHASE_NEW) {
-        run_all(net, enter, net->phase[b] >> 2);
+    if ((net->phase[b] & 3) == PCL2_NET_NEW) {
+        net_run_all(net, enter, net->phase[b] >> 2);
         net->since[b] = net->now;
-        set_phase(net, b, PHASE_WAITING);
+        net_set_phase(net, b, PCL2_NET_RUNNING);
         return;
     }
-    if ((net->phase[b] & 3) != PHASE_WAITING) {
+    if ((net->phase[b] & 3) != PCL2_NET_RUNNING) {
         return;
     }
-    const int32_t complete = more[0] == 0 || run(net, more[0] - 1, 0);
-    const int32_t late = more[1] != 0 && net->now - net->since[b] >= net->duration(net->host, more[1] - 1);
+    const int32_t complete = more[0] == 0 || net_run(net, more[0] - 1, 0);
+    const int32_t late = more[1] != 0 && net->now - net->since[b] >= net->duration(net, more[1] - 1);
     if (complete || late) {
-        finish(net, b, after, !complete);
+        net_finish(net, b, after, !complete);
     }
 }
 
 /* Puts the class's initial values into the hand of a box: they stand in its place behind the last. */
-static void fresh(struct pcl2_net *net, const pcl2_net_word *box)
+static void net_fresh(struct pcl2_net *net, const pcl2_net_word *box)
 {
-    load(net, box, box[2]);
+    net_load(net, box, box[2]);
 }
 
 /* On the rising edge of the condition a token; while there is no room one waits. */
-static void generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *box, const pcl2_net_word *more)
+static void net_generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *box, const pcl2_net_word *more)
 {
-    const int32_t now = run(net, more[0], 0) != 0, edge = now && (net->phase[b] & 1) == 0;
+    const int32_t now = net_run(net, more[0], 0) != 0, edge = now && (net->phase[b] & 1) == 0;
     int32_t waiting = (net->phase[b] & 2) != 0;
     if (edge && waiting) {
-        fault(net, PCL2_NET_LOST);
-        count(net->lost);
+        pcl2_net_fault(net->status, PCL2_NET_LOST);
+        pcl2_net_count(net->lost);
     }
     waiting |= edge;
     if (waiting && net->box[b] < box[2]) {
-        fresh(net, box);
-        store(net, box, box, net->box[b]);
+        net_fresh(net, box);
+        net_store(net, box, box, net->box[b]);
         net->hold[b] = net->box[b] + 1;
         net->box[b] += 1;
         for (int32_t i = 1; i <= more[1]; i++) {
-            (void)act(net, more[1 + i], 0);
+            (void)net_act(net, more[1 + i], 0);
             net->hold[b] = net->box[b];
         }
         net->hold[b] = 0;
@@ -339,58 +472,69 @@ static void generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *box, 
     net->phase[b] = now | (waiting << 1);
 }
 
-void pcl2_net_boxes(struct pcl2_net *net)
+static void net_box_phase(struct pcl2_net *net)
 {
-    memset(net->wrote, 0, (size_t)net->table[PCL2_NET_N_WORDS] * sizeof *net->wrote);
     for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
-        const pcl2_net_word *box = box_record(net, b), *more = box + 8;
+        const pcl2_net_word *box = net_box_record(net, b), *more = box + 8;
         if (box[0] == PCL2_NET_GENERATION) {
-            generate(net, b, box, more);
+            net_generate(net, b, box, more);
         }
         if (net->box[b] == 0) {
             continue;
         }
         if (box[0] == PCL2_NET_TIME) {
-            const int64_t time = net->duration(net->host, more[0]);
-            set_phase(net, b, net->now - net->since[b] >= time ? PHASE_DONE : PHASE_NEW);
-        } else if (box[0] == PCL2_NET_ACTION && (net->phase[b] & 3) == PHASE_NEW) {
-            run_all(net, more, net->phase[b] >> 2);
-            set_phase(net, b, PHASE_DONE);
+            const int64_t time = net->duration(net, more[0]);
+            net_set_phase(net, b, net->now - net->since[b] >= time ? PCL2_NET_DONE : PCL2_NET_NEW);
+        } else if (box[0] == PCL2_NET_ACTION && (net->phase[b] & 3) == PCL2_NET_NEW) {
+            net_run_all(net, more, net->phase[b] >> 2);
+            net_set_phase(net, b, PCL2_NET_DONE);
         } else if (box[0] == PCL2_NET_PROCESS) {
-            process(net, b, more);
+            net_process(net, b, more);
         }
     }
 }
 
 /* The gate phase. */
 
-static const pcl2_net_word *part_record(const struct pcl2_net *net, int32_t part)
+static const pcl2_net_word *net_part_record(const struct pcl2_net *net, int32_t part)
 {
     const pcl2_net_word *parts = net->table + net->table[PCL2_NET_PARTS];
     return net->table + parts[1 + part];
 }
 
-static int32_t excited(const struct pcl2_net *net, int32_t b)
+/* A net inside, to look at. */
+static const struct pcl2_net *net_part_of(const struct pcl2_net *net, int32_t part)
 {
-    const pcl2_net_word *box = box_record(net, b);
+    return net + net_part_record(net, part)[2];
+}
+
+/* A net inside, to change. */
+static struct pcl2_net *net_inside(struct pcl2_net *net, int32_t part)
+{
+    return net + net_part_record(net, part)[2];
+}
+
+static int32_t net_excited(const struct pcl2_net *net, int32_t b)
+{
+    const pcl2_net_word *box = net_box_record(net, b);
     switch (box[0]) {
     case PCL2_NET_TIME:
     case PCL2_NET_ACTION:
-        return net->box[b] > 0 && (net->phase[b] & 3) == PHASE_DONE;
+        return net->box[b] > 0 && (net->phase[b] & 3) == PCL2_NET_DONE;
     case PCL2_NET_PROCESS:
-        return net->box[b] > 0 && (net->phase[b] & 3) == PHASE_READY;
+        return net->box[b] > 0 && (net->phase[b] & 3) == PCL2_NET_READY;
     case PCL2_NET_COUNT:
         return net->box[b] >= box[2];
     case PCL2_NET_MACRO: {
-        const struct pcl2_net *part = net->parts[box[8]];
-        return net->box[b] > 0 && part->box[part_record(net, box[8])[1]] > 0;
+        const struct pcl2_net *part = net_part_of(net, box[8]);
+        return net->box[b] > 0 && part->box[net_part_record(net, box[8])[1]] > 0;
     }
     default:
         return net->box[b] > 0;
     }
 }
 
-static int32_t weight_in(const pcl2_net_word *arcs, int32_t n, int32_t b)
+static int32_t net_weight_in(const pcl2_net_word *arcs, int32_t n, int32_t b)
 {
     for (int32_t i = 0; i < n; i++) {
         if (arcs[2 * i] == b) {
@@ -401,9 +545,9 @@ static int32_t weight_in(const pcl2_net_word *arcs, int32_t n, int32_t b)
 }
 
 /* Whether a macro's net is empty, so that a token may enter. */
-static int32_t vacant(const struct pcl2_net *net, int32_t part)
+static int32_t net_vacant(const struct pcl2_net *net, int32_t part)
 {
-    const struct pcl2_net *inner = net->parts[part];
+    const struct pcl2_net *inner = net_part_of(net, part);
     for (int32_t b = 0; b < inner->table[PCL2_NET_N_BOXES]; b++) {
         if (inner->box[b] != 0 || inner->filled[b] != 0) {
             return 0;
@@ -413,42 +557,42 @@ static int32_t vacant(const struct pcl2_net *net, int32_t part)
 }
 
 /* Whether a box can take so many tokens more. */
-static int32_t room(const struct pcl2_net *net, int32_t b, int32_t more)
+static int32_t net_room(const struct pcl2_net *net, int32_t b, int32_t more)
 {
-    const pcl2_net_word *box = box_record(net, b);
+    const pcl2_net_word *box = net_box_record(net, b);
     if (more <= 0 || box[2] == 0) {
         return 1;
     }
     const int32_t fits = net->box[b] + net->used[b] + more <= box[2];
-    return fits && (box[0] != PCL2_NET_MACRO || vacant(net, box[8]));
+    return fits && (box[0] != PCL2_NET_MACRO || net_vacant(net, box[8]));
 }
 
 /* Whether a tested box has so many tokens. */
-static int32_t has(const struct pcl2_net *net, const pcl2_net_word *tested, int32_t only_excited)
+static int32_t net_has(const struct pcl2_net *net, const pcl2_net_word *tested, int32_t only_excited)
 {
-    const struct pcl2_net *where = tested[0] == 0 ? net : net->parts[tested[0] - 1];
+    const struct pcl2_net *where = tested[0] == 0 ? net : net_part_of(net, tested[0] - 1);
     const int32_t there = where->box[tested[1]] >= tested[2];
-    return there && (!only_excited || excited(where, tested[1]));
+    return there && (!only_excited || net_excited(where, tested[1]));
 }
 
 /* Whether the tokens are there, those that are read and those that must not be there. */
-static int32_t enabled(const struct pcl2_net *net, const pcl2_net_word *gate)
+static int32_t net_enabled(const struct pcl2_net *net, const pcl2_net_word *gate)
 {
     const pcl2_net_word *arc = gate + 6, *tested = arc + 2 * (gate[0] + gate[1]);
     for (int32_t i = 0; i < gate[0]; i++, arc += 2) {
-        const int32_t counts = box_record(net, arc[0])[0] == PCL2_NET_COUNT;
-        const int32_t there = counts ? net->taken[arc[0]] == 0 : left(net, arc[0]) >= arc[1];
-        if (!there || !excited(net, arc[0])) {
+        const int32_t counts = net_box_record(net, arc[0])[0] == PCL2_NET_COUNT;
+        const int32_t there = counts ? net->taken[arc[0]] == 0 : net_left(net, arc[0]) >= arc[1];
+        if (!there || !net_excited(net, arc[0])) {
             return 0;
         }
     }
     for (int32_t i = 0; i < gate[2]; i++, tested += 3) {
-        if (!has(net, tested, 1)) {
+        if (!net_has(net, tested, 1)) {
             return 0;
         }
     }
     for (int32_t i = 0; i < gate[3]; i++, tested += 3) {
-        if (has(net, tested, 0)) {
+        if (net_has(net, tested, 0)) {
             return 0;
         }
     }
@@ -456,7 +600,7 @@ static int32_t enabled(const struct pcl2_net *net, const pcl2_net_word *gate)
 }
 
 /* Where the records of a rule begin. */
-struct rule {
+struct net_rule {
     int32_t condition;     /* + 1; 0: always */
     const pcl2_net_word *looks; /* lists: n, then n words */
     const pcl2_net_word *clears;
@@ -465,9 +609,9 @@ struct rule {
     const pcl2_net_word *end;
 };
 
-static struct rule rule_at(const pcl2_net_word *at)
+static struct net_rule net_rule_at(const pcl2_net_word *at)
 {
-    struct rule rule;
+    struct net_rule rule;
     rule.condition = at[0];
     rule.looks = at + 1;
     rule.clears = rule.looks + rule.looks[0] + 1;
@@ -482,7 +626,7 @@ static struct rule rule_at(const pcl2_net_word *at)
 }
 
 /* Takes the first tokens that satisfy the condition into hand: the last box's change quickest. */
-static int32_t satisfied(struct pcl2_net *net, const struct rule *rule, int32_t gate)
+static int32_t net_satisfied(struct pcl2_net *net, const struct net_rule *rule, int32_t gate)
 {
     const int32_t n = rule->looks[0];
     if (rule->condition == 0) {
@@ -491,20 +635,20 @@ static int32_t satisfied(struct pcl2_net *net, const struct rule *rule, int32_t 
     int32_t at = 0;
     while (at >= 0) {
         if (at == n) {
-            if (act(net, rule->condition - 1, gate)) {
+            if (net_act(net, rule->condition - 1, gate)) {
                 return 1;
             }
             at--;
             continue;
         }
         const int32_t b = rule->looks[at + 1];
-        const int32_t place = next_token(net, b, net->hold[b] - 1);
+        const int32_t place = net_next_token(net, b, net->hold[b] - 1);
         net->hold[b] = place + 1;
         if (place < 0) {
             at--;
             continue;
         }
-        load(net, box_record(net, b), place);
+        net_load(net, net_box_record(net, b), place);
         at++;
         if (at < n) {
             net->hold[rule->looks[at + 1]] = 0;
@@ -513,24 +657,24 @@ static int32_t satisfied(struct pcl2_net *net, const struct rule *rule, int32_t 
     return 0;
 }
 
-static void let_go(struct pcl2_net *net, const struct rule *rule)
+static void net_let_go(struct pcl2_net *net, const struct net_rule *rule)
 {
     for (int32_t i = 1; i <= rule->looks[0]; i++) {
         net->hold[rule->looks[i]] = 0;
     }
     if (rule->condition != 0) {
-        release(net, rule->condition - 1);
+        net_release(net, rule->condition - 1);
     }
 }
 
 /* Whether there is room where the rule puts tokens. */
-static int32_t rule_room(const struct pcl2_net *net, const pcl2_net_word *gate, const struct rule *rule)
+static int32_t net_rule_room(const struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule)
 {
     const pcl2_net_word *befores = gate + 6, *afters = befores + 2 * gate[0], *move = rule->moves + 1;
     for (int32_t i = 0; i < rule->moves[0]; i++, move += 2 + move[1]) {
         for (int32_t j = 0; j < move[1]; j++) {
             const pcl2_net_word *arc = afters + 2 * move[2 + j];
-            if (!room(net, arc[0], arc[1] - weight_in(befores, gate[0], arc[0]))) {
+            if (!net_room(net, arc[0], arc[1] - net_weight_in(befores, gate[0], arc[0]))) {
                 return 0;
             }
         }
@@ -538,83 +682,84 @@ static int32_t rule_room(const struct pcl2_net *net, const pcl2_net_word *gate, 
     return 1;
 }
 
-static void take(struct pcl2_net *net, const pcl2_net_word *arc)
+static void net_take(struct pcl2_net *net, const pcl2_net_word *arc)
 {
-    const pcl2_net_word *box = box_record(net, arc[0]);
+    const pcl2_net_word *box = net_box_record(net, arc[0]);
     if (box[0] == PCL2_NET_MACRO) {
-        struct pcl2_net *part = net->parts[box[8]];
-        const int32_t exit = part_record(net, box[8])[1];
+        struct pcl2_net *part = net_inside(net, box[8]);
+        const int32_t exit = net_part_record(net, box[8])[1];
         part->taken[exit] = part->box[exit];
-        load(part, box_record(part, exit), 0);
-        for (int32_t i = 0; box[1] != 0 && i < class_of(net, box)[0]; i++) {
-            const int32_t real = class_of(net, box)[i + 1];
-            const void *from = part->hands[box_record(part, exit)[7] + i];
-            memcpy(net->hands[box[7] + i], from, real ? sizeof(pcl2_real) : sizeof(int32_t));
+        net_load(part, net_box_record(part, exit), 0);
+        for (int32_t i = 0; box[1] != 0 && i < net_class_of(net, box)[0]; i++) {
+            const int32_t real = net_class_of(net, box)[i + 1];
+            const void *from = net_hand_at(part, net_box_record(part, exit)[7] + i);
+            memcpy(net_hand_at(net, box[7] + i), from, real ? sizeof(pcl2_real) : sizeof(int32_t));
         }
         net->taken[arc[0]] += 1;
         net->hold[arc[0]] = -1;
         return;
     }
     const int32_t held = net->hold[arc[0]];
-    const int32_t place = held > 0 ? held - 1 : next_token(net, arc[0], -1);
+    const int32_t place = held > 0 ? held - 1 : net_next_token(net, arc[0], -1);
     for (int32_t i = 0; i < arc[1]; i++) {
         if (i == 0) {
-            load(net, box, place);
+            net_load(net, box, place);
         }
-        remove_token(net, arc[0], i == 0 ? place : 0);
+        net_remove_token(net, arc[0], i == 0 ? place : 0);
     }
     net->hold[arc[0]] = -1;
 }
 
 /* A token goes from the hand of one box into another. */
-static void put(struct pcl2_net *net, int32_t from, const pcl2_net_word *arc, int32_t excess, int32_t gate)
+static void net_put(struct pcl2_net *net, int32_t from, const pcl2_net_word *arc, int32_t excess, int32_t gate)
 {
     const int32_t b = arc[0];
-    const pcl2_net_word *box = box_record(net, b), *source = from < 0 ? box : box_record(net, from);
+    const pcl2_net_word *box = net_box_record(net, b), *source = from < 0 ? box : net_box_record(net, from);
     if (box[1] != 0) {
-        store(net, source, box, box[0] == PCL2_NET_MACRO ? 0 : left(net, b) + net->filled[b]);
+        net_store(net, source, box, box[0] == PCL2_NET_MACRO ? 0 : net_left(net, b) + net->filled[b]);
     }
     net->filled[b] += arc[1];
     net->used[b] += excess > 0 ? excess : 0;
     net->by[b] = gate;
     if (box[0] == PCL2_NET_MACRO) {
-        struct pcl2_net *part = net->parts[box[8]];
-        const int32_t entry = part_record(net, box[8])[0];
-        const pcl2_net_word *inner = box_record(part, entry);
-        for (int32_t i = 0; box[1] != 0 && i < class_of(net, box)[0]; i++) {
-            const int32_t real = class_of(net, box)[i + 1];
-            memcpy(part->hands[inner[7] + i], net->hands[source[7] + i], real ? sizeof(pcl2_real) : sizeof(int32_t));
+        struct pcl2_net *part = net_inside(net, box[8]);
+        const int32_t entry = net_part_record(net, box[8])[0];
+        const pcl2_net_word *inner = net_box_record(part, entry);
+        for (int32_t i = 0; box[1] != 0 && i < net_class_of(net, box)[0]; i++) {
+            const int32_t real = net_class_of(net, box)[i + 1];
+            const void *hand = net_hand_at(net, source[7] + i);
+            memcpy(net_hand_at(part, inner[7] + i), hand, real ? sizeof(pcl2_real) : sizeof(int32_t));
         }
-        store(part, inner, inner, 0);
+        net_store(part, inner, inner, 0);
         part->filled[entry] += 1;
         part->used[entry] += 1;
         part->by[entry] = 0;
     }
 }
 
-static void move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, const struct rule *rule, int32_t index)
+static void net_move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule, int32_t index)
 {
     const pcl2_net_word *befores = gate + 6, *afters = befores + 2 * gate[0], *move = rule->moves + 1;
     for (int32_t i = 0; i < gate[0]; i++) {
-        take(net, befores + 2 * i);
+        net_take(net, befores + 2 * i);
     }
     for (int32_t i = 0; i < rule->moves[0]; i++, move += 2 + move[1]) {
         for (int32_t j = 0; move[0] == 0 && j < move[1]; j++) {
             const int32_t b = afters[2 * move[2 + j]];
             const int32_t busy = net->hold[b] < 0;
             if (!busy) {
-                fresh(net, box_record(net, b));
+                net_fresh(net, net_box_record(net, b));
                 net->hold[b] = -1;
             }
         }
     }
-    run_all(net, rule->actions, index);
+    net_run_all(net, rule->actions, index);
     move = rule->moves + 1;
     for (int32_t i = 0; i < rule->moves[0]; i++, move += 2 + move[1]) {
         for (int32_t j = 0; j < move[1]; j++) {
             const pcl2_net_word *arc = afters + 2 * move[2 + j];
-            const int32_t excess = arc[1] - weight_in(befores, gate[0], arc[0]);
-            put(net, move[0] == 0 ? -1 : befores[2 * (move[0] - 1)], arc, excess, index);
+            const int32_t excess = arc[1] - net_weight_in(befores, gate[0], arc[0]);
+            net_put(net, move[0] == 0 ? -1 : befores[2 * (move[0] - 1)], arc, excess, index);
         }
     }
     for (int32_t i = 0; i < gate[0] + gate[1]; i++) {
@@ -622,80 +767,224 @@ static void move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, const s
     }
 }
 
-static int32_t permitted(struct pcl2_net *net, const pcl2_net_word *gate, const pcl2_net_word *permits, int32_t index)
+/* What BLOCKED tells if this permissive is the first that holds a gate back. */
+static void net_tell_blocked(struct pcl2_net *net, int32_t gate, int32_t term)
+{
+    const pcl2_net_word *operated = net_operated(net);
+    if (operated != NULL && net->blocked == 0) {
+        net->blocked = net_gates_in_file(operated)[net->table[PCL2_NET_N_GATES] + gate] + term;
+    }
+}
+
+static int32_t net_permitted(struct pcl2_net *net, const pcl2_net_word *gate, const pcl2_net_word *permits,
+                             int32_t index)
 {
     for (int32_t i = 0; i < gate[4]; i++) {
-        if (!run(net, permits[i], index)) {
+        if (!net_run(net, permits[i], index)) {
+            net_tell_blocked(net, index, i);
             return 0;
         }
     }
     return 1;
 }
 
-/* Tries a gate: the first part that is true is the part. */
-static void try_gate(struct pcl2_net *net, int32_t index)
+/* Fires a gate by a rule. */
+static void net_fire(struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule, int32_t index)
 {
-    const pcl2_net_word *gate = record(net, PCL2_NET_GATES, index);
+    for (int32_t i = 1; i <= rule->clears[0]; i++) {
+        *(int32_t *)net_word_at(net, rule->clears[i]) = 0;
+    }
+    net_move_tokens(net, gate, rule, index);
+}
+
+/* Tries a gate: the first part that is true is the part. */
+static void net_try_gate(struct pcl2_net *net, int32_t index)
+{
+    const pcl2_net_word *gate = net_record(net, PCL2_NET_GATES, index);
     const pcl2_net_word *permits = gate + 6 + 2 * (gate[0] + gate[1]) + 3 * (gate[2] + gate[3]);
     const pcl2_net_word *at = permits + gate[4];
-    if (!enabled(net, gate)) {
+    if (!net_enabled(net, gate)) {
         return;
     }
     for (int32_t i = 0; i < gate[5]; i++) {
-        const struct rule rule = rule_at(at);
+        const struct net_rule rule = net_rule_at(at);
         at = rule.end;
-        if (satisfied(net, &rule, index)) {
-            if (rule_room(net, gate, &rule) && permitted(net, gate, permits, index)) {
-                for (int32_t j = 1; j <= rule.clears[0]; j++) {
-                    *(int32_t *)net->words[rule.clears[j]] = 0;
-                }
-                move_tokens(net, gate, &rule, index);
+        if (net_satisfied(net, &rule, index)) {
+            if (net_rule_room(net, gate, &rule) && net_permitted(net, gate, permits, index)) {
+                net_fire(net, gate, &rule, index);
             }
-            let_go(net, &rule);
+            net_let_go(net, &rule);
             return;
         }
-        let_go(net, &rule);
+        net_let_go(net, &rule);
+    }
+}
+
+/* Takes all tokens of a macro's net, and of the macros in it. */
+static void net_empty(struct pcl2_net *net)
+{
+    for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
+        net->taken[b] = net->box[b];
+    }
+    for (int32_t i = 0; i < net->table[net->table[PCL2_NET_PARTS]]; i++) {
+        if (net_part_record(net, i)[3] != 0) {
+            net_empty(net_inside(net, i));
+        }
     }
 }
 
 /* Empties a macro whose ABORT holds: the token goes to the box that is named. */
-static void abort_part(struct pcl2_net *net, int32_t part)
+static void net_abort_part(struct pcl2_net *net, int32_t part)
 {
-    const pcl2_net_word *record = part_record(net, part);
-    if (record[3] == 0 || record[4] == 0 || net->box[record[3] - 1] == 0 || !run(net, record[4] - 1, 0)) {
+    const pcl2_net_word *record = net_part_record(net, part);
+    if (record[3] == 0 || record[4] == 0 || net->box[record[3] - 1] == 0 || !net_run(net, record[4] - 1, 0)) {
         return;
     }
     const int32_t macro = record[3] - 1;
     const pcl2_net_word arc[2] = {record[5], 1};
-    struct pcl2_net *inner = net->parts[part];
-    if (!room(net, arc[0], 1)) {
+    if (!net_room(net, arc[0], 1)) {
         return;
     }
-    for (int32_t b = 0; b < inner->table[PCL2_NET_N_BOXES]; b++) {
-        inner->taken[b] = inner->box[b];
-    }
-    load(net, box_record(net, macro), 0);
+    net_empty(net_inside(net, part));
+    net_load(net, net_box_record(net, macro), 0);
     net->taken[macro] = 1;
-    run_all(net, record + 6, 0);
-    put(net, macro, arc, 1, 0);
+    net_run_all(net, record + 6, 0);
+    net_put(net, macro, arc, 1, 0);
 }
 
-void pcl2_net_gates(struct pcl2_net *net)
+static void net_gate_phase(struct pcl2_net *net)
 {
     for (int32_t i = 0; i < net->table[net->table[PCL2_NET_PARTS]]; i++) {
-        abort_part(net, i);
+        net_abort_part(net, i);
     }
     for (int32_t i = 0; i < net->table[PCL2_NET_N_GATES]; i++) {
-        try_gate(net, i);
+        net_try_gate(net, i);
     }
 }
 
-void pcl2_net_commit(struct pcl2_net *net)
+/* Commands. */
+
+/* The part that a net is of the one around it, if it is a macro; else NULL. */
+static const pcl2_net_word *net_macro_of(const struct pcl2_net *net)
+{
+    const struct pcl2_net *outer = net->outer;
+    for (int32_t i = 0; outer != NULL && i < outer->table[outer->table[PCL2_NET_PARTS]]; i++) {
+        const pcl2_net_word *record = net_part_record(outer, i);
+        if (outer + record[2] == net) {
+            return record[3] != 0 ? record : NULL;
+        }
+    }
+    return NULL;
+}
+
+/* Whether a macro's own net lets a token be forced: it has tokens while the macro is marked and no longer, and entry and
+ * exit are the macro's own. */
+static int32_t net_within_macro(const struct pcl2_net *net, int32_t b, int32_t takes)
+{
+    const pcl2_net_word *macro = net_macro_of(net);
+    int32_t tokens = 0;
+    if (macro == NULL) {
+        return 1;
+    }
+    if (b == macro[0] || b == macro[1]) {
+        return 0;
+    }
+    for (int32_t i = 0; i < net->table[PCL2_NET_N_BOXES]; i++) {
+        tokens = pcl2_add_i(tokens, net_left(net, i) != 0 || net->filled[i] != 0 ? 1 : 0);
+    }
+    const int32_t last = tokens == 1 && net_left(net, b) + net->filled[b] == 1;
+    return takes ? !last : net_left(net->outer, macro[3] - 1) > 0;
+}
+
+/* Fires a gate whose tokens and room are there: by the rule that holds, else by the first. */
+static int32_t net_force_gate(struct pcl2_net *net, int32_t index)
+{
+    const pcl2_net_word *gate = net_record(net, PCL2_NET_GATES, index);
+    const pcl2_net_word *rules = gate + 6 + 2 * (gate[0] + gate[1]) + 3 * (gate[2] + gate[3]) + gate[4];
+    if (!net_enabled(net, gate)) {
+        return 0;
+    }
+    struct net_rule rule = net_rule_at(rules);
+    int32_t holds = net_satisfied(net, &rule, index);
+    for (int32_t i = 1; i < gate[5] && !holds; i++) {
+        net_let_go(net, &rule);
+        rule = net_rule_at(rule.end);
+        holds = net_satisfied(net, &rule, index);
+    }
+    if (!holds) {
+        net_let_go(net, &rule);
+        rule = net_rule_at(rules);
+    }
+    const int32_t fits = net_rule_room(net, gate, &rule);
+    if (fits) {
+        net_fire(net, gate, &rule, index);
+    }
+    net_let_go(net, &rule);
+    return fits;
+}
+
+/* Puts a new token into a box that has room. */
+static int32_t net_force_put(struct pcl2_net *net, int32_t b)
+{
+    const pcl2_net_word arc[2] = {(pcl2_net_word)b, 1};
+    if (!net_room(net, b, 1) || !net_within_macro(net, b, 0)) {
+        return 0;
+    }
+    net_fresh(net, net_box_record(net, b));
+    net_put(net, -1, arc, 1, 0);
+    return 1;
+}
+
+/* Takes the first token of a box. */
+static int32_t net_force_take(struct pcl2_net *net, int32_t b)
+{
+    const pcl2_net_word *box = net_box_record(net, b);
+    if (net_left(net, b) <= 0 || !net_within_macro(net, b, 1)) {
+        return 0;
+    }
+    if (box[0] == PCL2_NET_MACRO) {
+        net_empty(net_inside(net, box[8]));
+    }
+    if (box[0] == PCL2_NET_COUNT) {
+        net->taken[b] += 1;
+    } else {
+        net_remove_token(net, b, net_next_token(net, b, -1));
+    }
+    return 1;
+}
+
+/* The gate phase of a net in manual mode. */
+static void net_obey(struct pcl2_net *net)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    for (int32_t which = NET_OPERATED_FIRE; modes != NULL && which <= NET_OPERATED_TAKE; which++) {
+        const int32_t number = net_command(net, modes, which);
+        const int32_t most = net->table[which == NET_OPERATED_FIRE ? PCL2_NET_N_GATES : PCL2_NET_N_BOXES];
+        int32_t obeyed = 0;
+        if (number == 0) {
+            continue;
+        }
+        if (number < 1 || number > most) {
+            obeyed = 0;
+        } else if (which == NET_OPERATED_FIRE) {
+            obeyed = net_force_gate(net, net_gates_in_file(modes)[number - 1]);
+        } else if (which == NET_OPERATED_PUT) {
+            obeyed = net_force_put(net, number - 1);
+        } else {
+            obeyed = net_force_take(net, number - 1);
+        }
+        net_record_command(net, obeyed);
+    }
+}
+
+static void net_commit(struct pcl2_net *net)
 {
     for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
         if (net->filled[b] != 0) {
             net->since[b] = net->now;
-            net->phase[b] = net->by[b] << 2;
+            if (net_box_record(net, b)[0] != PCL2_NET_GENERATION) {
+                net->phase[b] = net->by[b] << 2;
+            }
         }
         net->box[b] = pcl2_add_i(net->box[b], net->filled[b] - net->taken[b]);
         net->filled[b] = 0;
@@ -706,7 +995,7 @@ void pcl2_net_commit(struct pcl2_net *net)
 
 /* What follows from the marking. */
 
-static void active_box(struct pcl2_net *net, int32_t index, const pcl2_net_word *record)
+static void net_active_box(struct pcl2_net *net, int32_t index, const pcl2_net_word *record)
 {
     int32_t marked = 0;
     for (int32_t i = 0; i < record[2] && marked == 0; i++) {
@@ -715,52 +1004,109 @@ static void active_box(struct pcl2_net *net, int32_t index, const pcl2_net_word 
     if (marked != net->active[index]) {
         net->active[index] = marked;
         net->active_since[index] = net->now;
+        pcl2_net_counted(&net->wrote[record[0]]);
     }
-    *(int32_t *)net->words[record[0]] = marked;
+    *(int32_t *)net_word_at(net, record[0]) = marked;
     if (record[1] != 0) {
-        *(pcl2_real *)net->words[record[1] - 1] = pcl2_seconds(net->now - net->active_since[index]);
+        pcl2_net_counted(&net->wrote[record[1] - 1]);
+        *(pcl2_real *)net_word_at(net, record[1] - 1) = pcl2_seconds(net->now - net->active_since[index]);
+    }
+}
+
+static void net_active_boxes(struct pcl2_net *net)
+{
+    const pcl2_net_word *at = net->table + net->table[PCL2_NET_ACTIVES];
+    const int32_t n = *at++;
+    for (int32_t i = 0; i < n; i++) {
+        net_active_box(net, i, at);
+        at += 3 + at[2];
+    }
+}
+
+/* The output of BLOCKED: between steps it stays. */
+static void net_blocked(struct pcl2_net *net)
+{
+    const pcl2_net_word *operated = net_operated(net);
+    if (operated != NULL && operated[NET_OPERATED_BLOCKED] != 0 && net->mode != PCL2_NET_STEP) {
+        const int32_t word = operated[NET_OPERATED_BLOCKED] - 1;
+        *(int32_t *)net_word_at(net, word) = net->blocked;
+        pcl2_net_counted(&net->wrote[word]);
     }
 }
 
 /* Words that a part writes take its value when it wrote it. */
-static void part_writes(struct pcl2_net *net, int32_t part)
+static void net_part_writes(struct pcl2_net *net, int32_t part)
 {
-    const pcl2_net_word *writes = part_record(net, part) + 6;
+    const struct pcl2_net *inner = net_part_of(net, part);
+    const pcl2_net_word *writes = net_part_record(net, part) + 6;
     writes += writes[0] + 1;
     for (int32_t i = 0; i < writes[0]; i++) {
         const int32_t output = writes[1 + 2 * i], word = writes[2 + 2 * i];
-        if (net->parts[part]->wrote[output] != 0) {
+        const int32_t stops = inner->table[inner->table[PCL2_NET_WORDS] + output] & 2;
+        if (inner->wrote[output] != 0 || (inner->switched && stops)) {
             pcl2_real before;
-            keep(net, word, &before, 0);
-            keep(net, word, net->parts[part]->words[output], 1);
-            written(net, word, part, &before);
+            net_keep(net, word, &before, 0);
+            net_keep(net, word, net_word_at(inner, output), 1);
+            net_written(net, word, part, &before);
         }
     }
 }
 
-void pcl2_net_levels(struct pcl2_net *net)
+static void net_levels(struct pcl2_net *net)
 {
     const pcl2_net_word *at = net->table + net->table[PCL2_NET_LEVELS];
     for (int32_t i = 0; i < net->table[net->table[PCL2_NET_PARTS]]; i++) {
-        part_writes(net, i);
+        net_part_writes(net, i);
     }
-    const int32_t levels = *at++;
-    for (int32_t i = 0; i < levels; i++) {
+    const int32_t n = *at++;
+    for (int32_t i = 0; i < n; i++) {
         const pcl2_net_word *boxes = at + 1, *parts = boxes + boxes[0] + 1;
         int32_t level = 0;
         for (int32_t j = 1; j <= boxes[0]; j++) {
             level |= net->box[boxes[j]] > 0;
         }
         for (int32_t j = 0; j < parts[0]; j++) {
-            level |= *(const int32_t *)net->parts[parts[1 + 2 * j]]->words[parts[2 + 2 * j]] != 0;
+            level |= *(const int32_t *)net_word_at(net_part_of(net, parts[1 + 2 * j]), parts[2 + 2 * j]) != 0;
         }
-        *(int32_t *)net->words[at[0]] = level;
+        *(int32_t *)net_word_at(net, at[0]) = level;
         at = parts + 2 * parts[0] + 1;
     }
-    at = net->table + net->table[PCL2_NET_ACTIVES];
-    const int32_t actives = *at++;
-    for (int32_t i = 0; i < actives; i++) {
-        active_box(net, i, at);
-        at += 3 + at[2];
+    if (net->mode != PCL2_NET_STOPPED) {
+        net_active_boxes(net);
     }
+    net_blocked(net);
+}
+
+/* A net takes the status of one inside if it has none. */
+static void net_hand_out(const struct pcl2_net *net)
+{
+    if (net->outer != NULL && *net->outer->status == 0) {
+        *net->outer->status = *net->status;
+    }
+}
+
+void pcl2_net_scan(struct pcl2_net *nets, int32_t n, int64_t *now, int64_t period)
+{
+    for (int32_t i = 0; i < n; i++) {
+        net_begin(&nets[i], *now);
+        if (nets[i].mode != PCL2_NET_STOPPED) {
+            net_box_phase(&nets[i]);
+        }
+    }
+    for (int32_t i = 0; i < n; i++) {
+        if (nets[i].mode == PCL2_NET_AUTOMATIC) {
+            net_gate_phase(&nets[i]);
+        } else if (nets[i].mode == PCL2_NET_MANUAL) {
+            net_obey(&nets[i]);
+        }
+    }
+    for (int32_t i = 0; i < n; i++) {
+        net_commit(&nets[i]);
+    }
+    for (int32_t i = n - 1; i >= 0; i--) {
+        net_levels(&nets[i]);
+        net_end(&nets[i], period);
+        net_hand_out(&nets[i]);
+    }
+    *now = *now > INT64_MAX - period ? INT64_MAX : *now + period;
 }

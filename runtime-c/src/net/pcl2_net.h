@@ -1,30 +1,23 @@
-/* The player of nets: what a scan of a net is. It walks a table that the compiler made of the net.
- *
- * A scan of a net and of the nets in it: pcl2_net_boxes for each, the outer ones first; pcl2_net_gates for each;
- * pcl2_net_commit for each; pcl2_net_levels for each, the inner ones first. */
+/* The player of nets: what a scan of a net is. It walks a table that the compiler made of the net. */
 #ifndef PCL2_NET_H
 #define PCL2_NET_H
 
-#include "pcl2.h"
-
-/* Faults of a net, the first of a scan. */
-#define PCL2_NET_LOST 1     /* a token was to be made while one was waiting for room: it is lost */
-#define PCL2_NET_CONFLICT 2 /* two different values were written in one scan: the gate of higher priority wins */
-#define PCL2_NET_TIMEOUT 3  /* a process box was not complete within its supervision time */
+#include "pcl2_net_step.h"
 
 /* The words at the start of a table: counts, and where records begin. */
 enum {
     PCL2_NET_N_BOXES,
     PCL2_NET_N_GATES,
     PCL2_NET_N_WORDS,
-    PCL2_NET_BOXES,   /* by box: where its record begins */
-    PCL2_NET_GATES,   /* by gate: where its record begins */
-    PCL2_NET_SCRIPTS, /* by statement: where its record begins */
-    PCL2_NET_CLASSES, /* by class: where its record begins */
-    PCL2_NET_WORDS,   /* by word: 1 a real, 0 an int */
-    PCL2_NET_LEVELS,  /* words that boxes drive */
-    PCL2_NET_ACTIVES, /* words that tell the marked box */
-    PCL2_NET_PARTS,   /* nets inside */
+    PCL2_NET_BOXES,    /* by box: where its record begins */
+    PCL2_NET_GATES,    /* by gate: where its record begins */
+    PCL2_NET_SCRIPTS,  /* by statement: where its record begins */
+    PCL2_NET_CLASSES,  /* by class: where its record begins */
+    PCL2_NET_WORDS,    /* by word: bit 0 a real, bit 1 it has a value of its own while the net is stopped */
+    PCL2_NET_LEVELS,   /* words that boxes drive */
+    PCL2_NET_ACTIVES,  /* words that tell the marked box */
+    PCL2_NET_PARTS,    /* nets inside */
+    PCL2_NET_OPERATED, /* modes, commands, and who is told of permissives; 0: none of them */
     PCL2_NET_HEAD
 };
 
@@ -39,12 +32,25 @@ enum {
     PCL2_NET_MACRO
 };
 
-/* A word of a table. */
-typedef int32_t pcl2_net_word;
+/* Modes of a net: the values of its input. */
+enum {
+    PCL2_NET_AUTOMATIC,
+    PCL2_NET_STEP,
+    PCL2_NET_MANUAL,
+    PCL2_NET_STOPPED
+};
 
-/* One net, or one instance of a net inside another, and what it keeps. */
+/* A word of a table: none is negative. */
+#ifndef PCL2_NET_WORD
+#define PCL2_NET_WORD int32_t
+#endif
+typedef PCL2_NET_WORD pcl2_net_word;
+
+/* One net, or one instance of a net inside another, and what it keeps. A net and those inside it stand in an array, each
+ * before those inside it. */
 struct pcl2_net {
     const pcl2_net_word *table;
+    char *base;                    /* what the places of words and attributes count from */
     int32_t *box;                  /* by box: its tokens; in the gate phase those of the phase's start */
     int32_t *taken;                /* by box: tokens taken in this phase; else 0 */
     int32_t *filled;               /* by box: tokens put in this phase; else 0 */
@@ -55,34 +61,33 @@ struct pcl2_net {
     int64_t *since;                /* by box: when its time began, nanoseconds */
     int32_t *ints;                 /* attributes of all tokens that are ints, place by place */
     pcl2_real *reals;              /* those that are reals */
-    void *const *words;            /* by word: where it is */
-    void *const *hands;            /* by attribute of each box: the token in hand */
-    int32_t *wrote;                /* by word: 0 nobody wrote it in this scan, else the gate that did, from 1 */
+    const size_t *words;           /* by word: where it is */
+    const size_t *hands;           /* by attribute of each box: where the token in hand is */
+    int32_t *wrote;                /* by word: 0 it is as before the scan, the gate that wrote it, from 1, -1 counted on */
     int32_t *active;               /* by ACTIVE line: what was marked in the last scan */
     int64_t *active_since;         /* by ACTIVE line: since when, nanoseconds */
-    struct pcl2_net *const *parts; /* the nets inside */
-    int64_t now;                   /* the time of the scan, nanoseconds */
+    const struct pcl2_net *outer;  /* the net around it, or NULL */
+    int32_t inputs;                /* the statement of the net around it that takes the inputs in */
+    int64_t now;                   /* the time of the scan, nanoseconds; it stands while the net is stopped */
+    int32_t mode;                  /* of the scan; a step that was commanded is automatic */
+    int32_t blocked;               /* the first permissive term that held a gate back in this scan, from 1; 0: none */
+    int32_t switched;              /* its words changed places with those of a stopped net in this scan */
     int32_t *status;               /* the first fault of the scan */
     int32_t *lost;                 /* tokens lost since the start; stops at 2^31 - 1 */
     int32_t *conflicts;            /* writes that lost since the start; stops at 2^31 - 1 */
-    int32_t (*act)(void *host, int32_t script);     /* runs a statement; of a condition its truth */
-    int64_t (*duration)(void *host, int32_t script); /* the value of a statement, seconds, as nanoseconds */
-    void *host;
+    int64_t *stood;                /* of a net with modes: how long it was stopped, nanoseconds; else NULL */
+    int32_t *halted;               /* of a net with modes: it was stopped in the last scan; else NULL */
+    int32_t *forced;               /* of a net with modes: gates and tokens forced since the start; stops at 2^31 - 1 */
+    int32_t *refused;              /* of a net with modes: commands refused since the start; stops at 2^31 - 1 */
+    int32_t (*act)(const struct pcl2_net *net, int32_t statement); /* runs a statement; of a condition its truth */
+    int64_t (*duration)(const struct pcl2_net *net, int32_t statement); /* the value of a statement, nanoseconds */
+    void *host;                    /* of those who run statements */
 };
 
 /* A time in seconds as nanoseconds, for those who run statements from outside. */
 int64_t pcl2_net_nanoseconds(const pcl2_real *seconds);
 
-/* The box phase. */
-void pcl2_net_boxes(struct pcl2_net *net);
-
-/* The gate phase: a greedy step on the marking at its start. */
-void pcl2_net_gates(struct pcl2_net *net);
-
-/* The end of the gate phase: tokens that were put are there. */
-void pcl2_net_commit(struct pcl2_net *net);
-
-/* Outputs that boxes drive. */
-void pcl2_net_levels(struct pcl2_net *net);
+/* One scan of a net and of the n - 1 nets inside it. The inputs of the first are there already. */
+void pcl2_net_scan(struct pcl2_net *nets, int32_t n, int64_t *now, int64_t period);
 
 #endif

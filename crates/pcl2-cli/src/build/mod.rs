@@ -95,12 +95,8 @@ fn one(args: &BuildArgs, project: &Project, verified: &Verified, toolchain: &Too
         piece = verify(cut(verified.program(), part)).map_err(|defect| failed(format!("cut: {defect}")))?;
         &piece
     };
-    let emit = Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
-    let options = Build { emit, shared: args.paths.len() > 1 };
+    let options = Build { emit: project.emit_options(), shared: args.paths.len() > 1 };
     let target = &args.output;
-    if let Some(net) = pcl2_emit::net_of(cut.program()) {
-        return Err(failed(format!("`{net}` is a net: nets run in the embedded engine, there is no C of them")));
-    }
     match args.emit {
         Emit::C => {
             let emitted = emit_into(target, cut, project, &options)?;

@@ -1,7 +1,7 @@
 //! `pcl2 net analyze`
 
 use super::AnalyzeArgs;
-use super::report::Report;
+use super::answers::Report;
 use crate::console;
 use crate::nets::is_net;
 use crate::outcome::Outcome;
@@ -32,7 +32,7 @@ impl Choice {
 
 /// Analyses a net.
 pub(crate) fn analyze(net: &PtNet, args: &AnalyzeArgs) -> Outcome {
-    let usual = if is_net(&args.path) { Choice::Step } else { Choice::Interleaving };
+    let usual = if is_net(&args.net.path) { Choice::Step } else { Choice::Interleaving };
     let semantics = args.semantics.unwrap_or(usual).semantics();
     let limit = args.limit.map_or_else(|| Limit::bytes(free_memory() / 2), Limit::markings);
     let bar = bar();

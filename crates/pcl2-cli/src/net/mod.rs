@@ -1,12 +1,21 @@
 //! `pcl2 net`: what is asked of a net before it runs.
 
 mod analyze;
+mod answers;
+mod compose;
+mod divide;
+mod export;
+mod fire;
+mod matrix;
 mod report;
 
+use crate::args::CommonArgs;
 use crate::console;
+use crate::nets::is_net;
 use crate::outcome::Outcome;
-use crate::project::read_regular;
+use crate::project::{self, read_regular};
 use clap::{Args, Subcommand};
+use pcl2_net::flat::{self, Flat};
 use pcl2_net::pnml;
 use pcl2_net::pt::PtNet;
 use std::path::{Path, PathBuf};
@@ -16,13 +25,35 @@ use std::path::{Path, PathBuf};
 pub(crate) enum NetCommand {
     /// Report invariants, bounds, siphons, deadlocks, liveness and reversibility of a net
     Analyze(AnalyzeArgs),
+    /// Print the matrices of a net, of the nets inside it and of its modules
+    Matrix(matrix::MatrixArgs),
+    /// Compose the matrix of a net from those of its modules
+    Compose(compose::ComposeArgs),
+    /// Fire transitions after the state equation, and check that they are enabled
+    Fire(fire::FireArgs),
+    /// Divide a flat net by its steps into a main loop and sub-nets
+    Divide(divide::DivideArgs),
+    /// Write a net for another tool
+    Export(export::ExportArgs),
+    /// Write the documentation of a net: picture, tables, analysis, cross-reference
+    Report(report::ReportArgs),
+}
+
+/// A net, and where those inside it are looked for.
+#[derive(Args, Debug)]
+pub(crate) struct NetPath {
+    /// A .net or .pnml file
+    pub(crate) path: PathBuf,
+    /// A folder with nets
+    #[arg(long, value_name = "DIR")]
+    pub(crate) blocks: Vec<PathBuf>,
 }
 
 /// `pcl2 net analyze`
 #[derive(Args, Debug)]
 pub(crate) struct AnalyzeArgs {
-    /// A .pnml file
-    pub(crate) path: PathBuf,
+    #[command(flatten)]
+    pub(crate) net: NetPath,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
@@ -37,26 +68,51 @@ pub(crate) struct AnalyzeArgs {
 /// Runs a command.
 pub(crate) fn net(command: &NetCommand) -> Outcome {
     match command {
-        NetCommand::Analyze(args) => match load(&args.path) {
+        NetCommand::Analyze(args) => match load(&args.net.path, &args.net.blocks) {
             Ok(net) => analyze::analyze(&net, args),
             Err(outcome) => outcome,
         },
+        NetCommand::Matrix(args) => matrix::matrix(args),
+        NetCommand::Compose(args) => compose::compose(args),
+        NetCommand::Fire(args) => fire::fire(args),
+        NetCommand::Divide(args) => divide::divide(args),
+        NetCommand::Export(args) => export::export(args),
+        NetCommand::Report(args) => report::report(args),
     }
 }
 
 /// The largest PNML file in bytes.
 const MAX_PNML: u64 = 64 << 20;
 
-/// Reads the net at a path.
-fn load(path: &Path) -> Result<PtNet, Outcome> {
+/// Reads the net at a path: of a .net file with all nets inside it. `blocks`: where those are looked for, too.
+pub(crate) fn load(path: &Path, blocks: &[PathBuf]) -> Result<PtNet, Outcome> {
+    if is_net(path) { load_flat(path, blocks).map(|flat| flat.net) } else { load_pnml(path) }
+}
+
+/// Reads a .net file with all nets inside it.
+pub(crate) fn load_flat(path: &Path, blocks: &[PathBuf]) -> Result<Flat, Outcome> {
+    let common = CommonArgs { blocks: blocks.to_vec(), ..CommonArgs::default() };
+    let project = project::load(path, &common)?;
+    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
+    let decl = project.catalogue.find(&project.stem).filter(|_| project.verified.is_some()).ok_or(Outcome::Errors)?;
+    flat::flat(decl, &project.catalogue, &project.symbols).map_err(|why| refuse(path, &why))
+}
+
+fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {
     let shown = path.display();
-    let refuse = |why: String| {
-        console::error(&why);
+    let bytes = read_regular(path, MAX_PNML).map_err(|why| {
+        console::error(&format!("expected a readable file, found `{shown}`: {why}"));
         Outcome::Errors
-    };
-    let bytes = read_regular(path, MAX_PNML)
-        .map_err(|why| refuse(format!("expected a readable file, found `{shown}`: {why}")))?;
-    let text =
-        String::from_utf8(bytes).map_err(|_| refuse(format!("{shown}: expected UTF-8 text, found other bytes")))?;
-    pnml::read(&text).map_err(|error| refuse(format!("{shown}:{error}")))
+    })?;
+    let text = String::from_utf8(bytes).map_err(|_| refuse(path, "expected UTF-8 text, found other bytes"))?;
+    pnml::read(&text).map_err(|error| {
+        console::error(&format!("{shown}:{error}"));
+        Outcome::Errors
+    })
+}
+
+/// Says why nothing is done with a file.
+fn refuse(path: &Path, why: &str) -> Outcome {
+    console::error(&format!("{}: {why}", path.display()));
+    Outcome::Errors
 }

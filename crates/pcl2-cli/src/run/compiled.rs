@@ -29,10 +29,6 @@ pub(crate) fn run(
     toolchain: &Toolchain,
     recorder: &mut Recorder,
 ) -> Result<Finished, Failure> {
-    if let Some(net) = pcl2_emit::net_of(verified.program()) {
-        let why = format!("`{net}` is a net: nets run in the embedded engine, there is no C of them");
-        return Err(Failure::failed(why));
-    }
     let folder = tempfile::Builder::new().prefix("pcl2-").tempdir().map_err(|error| cannot("make a folder", &error))?;
     let program = build(verified, project, toolchain, &folder)?;
     let script = folder.path().join("script");
@@ -107,9 +103,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Emits, writes and compiles the program with its runner.
 fn build(verified: &Verified, project: &Project, toolchain: &Toolchain, folder: &TempDir) -> Result<PathBuf, Failure> {
-    let options =
-        pcl2_emit::Options { known: project.catalogue.decls().collect(), user_files: project.kernels.clone() };
-    let emitted = pcl2_emit::emit(verified, &project.sources, &options);
+    let emitted = pcl2_emit::emit(verified, &project.sources, &project.emit_options());
     for (path, text) in &emitted.files {
         write(&folder.path().join(path), text.as_bytes())?;
     }

@@ -23,14 +23,25 @@ pub(crate) fn text(job: &Job<'_>, history: &History) -> String {
     let label_width = labels.iter().map(|label| label.chars().count()).max().unwrap_or(0);
     let value_width = values.iter().map(|value| value.chars().count()).max().unwrap_or(0);
     for (i, (label, value)) in labels.iter().zip(&values).enumerate() {
-        let drawing = if job.names.point(job.columns[i]).ty.is_scalar() { drawing(history, i) } else { String::new() };
-        let line = format!("  {label:label_width$}  {value:>value_width$}  {drawing}");
+        let point = job.names.point(job.columns[i]);
+        let drawing = if point.ty.is_scalar() { drawing(history, i) } else { String::new() };
+        let name = name(last[i], &point.names);
+        let line = format!("  {label:label_width$}  {value:>value_width$}  {drawing}  {name}");
         let _ = writeln!(text, "{}", line.trim_end());
     }
     if job.columns.len() > labels.len() {
         let _ = writeln!(text, "  and {} more (--record, --trace)", job.columns.len() - labels.len());
     }
     text
+}
+
+/// What a value is called where values have names.
+fn name(value: Number, names: &[String]) -> &str {
+    let name = match value {
+        Number::Int(value) => usize::try_from(value).ok().and_then(|value| names.get(value)),
+        Number::Double(_) | Number::Single(_) | Number::Time(_) => None,
+    };
+    name.map_or("", String::as_str)
 }
 
 /// Six digits are enough to look at.
@@ -69,6 +80,15 @@ mod tests {
         assert_eq!(drawing(&history, 0), "▅▆█ ▁");
         let flat = History { samples: vec![row(3.0), row(3.0)] };
         assert_eq!(drawing(&flat, 0), "▁▁");
+    }
+
+    #[test]
+    fn values_with_names_tell_them() {
+        let names = ["none".to_owned(), "g1 blocked: ok".to_owned()];
+        assert_eq!(name(Number::Int(1), &names), "g1 blocked: ok");
+        assert_eq!(name(Number::Int(2), &names), "");
+        assert_eq!(name(Number::Int(-1), &names), "");
+        assert_eq!(name(Number::Int(1), &[]), "");
     }
 
     #[test]

@@ -11,11 +11,11 @@
 
 mod layers;
 mod netlist;
-mod order;
-mod place;
+pub(crate) mod order;
+pub(crate) mod place;
 mod render;
-mod route;
-mod sheet;
+pub(crate) mod route;
+pub(crate) mod sheet;
 mod sheets;
 mod text;
 

@@ -218,7 +218,7 @@ impl Reader<'_> {
         let unit = self.program.main();
         let (signal, element) = match source {
             Source::Signal(signal) | Source::Copied(signal) => (*signal, String::new()),
-            Source::Element(signal, element) => (*signal, text::suffix(unit.signal(*signal).ty, *element)),
+            Source::Element(signal, element) => (*signal, self.element(*signal, *element)),
             Source::Constant(value) => {
                 // An open return port means "following": nothing to look at.
                 if label.name != RETURN_PORT {
@@ -243,6 +243,19 @@ impl Reader<'_> {
                 self.pin(block, Side::Left, label.name.clone(), Note::Word(unit.signal(signal).name.clone()));
             }
         }
+    }
+
+    /// `[3]`, or the name of an element that has one.
+    fn element(&self, signal: SignalId, element: u32) -> String {
+        let unit = self.program.main();
+        let signal = unit.signal(signal);
+        let name = signal.writers.first().and_then(|writer| {
+            let block = unit.block(writer.block);
+            let decl = self.program.decl(block.decl);
+            let output = output_decl(decl, &block.sizes, writer.output as usize)?;
+            decl.outputs[output].elements.get(element as usize).cloned()
+        });
+        name.unwrap_or_else(|| text::suffix(signal.ty, element))
     }
 
     /// A signal that a block changes in place comes in too, from whoever wrote it last.

@@ -44,6 +44,14 @@ pub(crate) struct Joint {
     pub(crate) offset: i64,
 }
 
+/// An end of a net: as [`Joint`], and the item.
+pub(crate) struct End {
+    pub(crate) item: usize,
+    pub(crate) channel: usize,
+    pub(crate) left: bool,
+    pub(crate) offset: i64,
+}
+
 /// A net in a channel: items and offsets on both sides.
 #[derive(Default)]
 pub(crate) struct Bundle {
@@ -124,11 +132,7 @@ pub(crate) fn draw(list: &Netlist, sheet: &Sheet, titles: Option<&[i32]>) -> Dra
 /// Items and channels of a sheet, in order of execution.
 fn grid(list: &Netlist, sheet: &Sheet) -> Grid {
     let count = sheet.layers.iter().max().map_or(0, |last| last + 1);
-    let mut grid = Grid {
-        items: Vec::new(),
-        layers: vec![Vec::new(); count],
-        channels: (0..=count).map(|_| Vec::new()).collect(),
-    };
+    let mut grid = Grid::new(count);
     for (i, node) in sheet.nodes.iter().enumerate() {
         let height = i64::from(shape::height(&list.nodes[*node]) / GRID);
         grid.add(Item {
@@ -147,37 +151,45 @@ fn grid(list: &Netlist, sheet: &Sheet) -> Grid {
 }
 
 impl Grid {
-    fn add(&mut self, item: Item) -> usize {
+    /// So many empty layers.
+    pub(crate) fn new(layers: usize) -> Grid {
+        let channels = (0..=layers).map(|_| Vec::new()).collect();
+        Grid { items: Vec::new(), layers: vec![Vec::new(); layers], channels }
+    }
+
+    /// Adds an item to its layer.
+    pub(crate) fn add(&mut self, item: Item) -> usize {
         self.layers[item.layer].push(self.items.len());
         self.items.push(item);
         self.items.len() - 1
     }
 
-    /// A net takes part in each channel from its first pin's to its last pin's, and passes the layers between.
     fn net(&mut self, list: &Netlist, sheet: &Sheet, index: usize, net: usize) {
-        let pins: Vec<PinAt> = std::iter::once(list.nets[net].source).chain(list.wired(net)).collect();
-        let ends: Vec<(usize, PinAt, bool)> = pins
-            .iter()
-            .filter_map(|at| {
-                let item = sheet.nodes.binary_search(&at.node).ok()?;
-                Some((item, *at, list.pin(*at).side == Side::Right))
-            })
-            .collect();
-        let channel = |(item, _, right): &(usize, PinAt, bool)| sheet.layers[*item] + usize::from(*right);
-        let first = ends.iter().map(channel).min().unwrap_or(0);
-        let last = ends.iter().map(channel).max().unwrap_or(0);
-        let lanes = ends.iter().map(|(item, ..)| sheet.lanes[*item] * 2);
+        let pins = std::iter::once(list.nets[net].source).chain(list.wired(net));
+        let end = |at: PinAt| {
+            let item = sheet.nodes.binary_search(&at.node).ok()?;
+            let left = list.pin(at).side == Side::Right;
+            let channel = sheet.layers[item] + usize::from(left);
+            Some(End { item, channel, left, offset: i64::from(shape::pin_y(list.pin(at)) / GRID) })
+        };
+        let ends: Vec<End> = pins.filter_map(end).collect();
+        let lanes = ends.iter().map(|end| sheet.lanes[end.item] * 2);
         let (top, bottom) = (lanes.clone().min().unwrap_or(0), lanes.max().unwrap_or(0));
-        let lane = if top == bottom { top } else { top + 1 };
+        self.connect(index, if top == bottom { top } else { top + 1 }, &ends);
+    }
+
+    /// A net takes part in each channel from its first end's to its last end's, and passes the layers between.
+    pub(crate) fn connect(&mut self, net: usize, lane: usize, ends: &[End]) {
+        let first = ends.iter().map(|end| end.channel).min().unwrap_or(0);
+        let last = ends.iter().map(|end| end.channel).max().unwrap_or(0);
         for channel in first..=last {
-            self.channels[channel].push(Bundle { net: index, ..Bundle::default() });
+            self.channels[channel].push(Bundle { net, ..Bundle::default() });
         }
-        for end in &ends {
-            let offset = i64::from(shape::pin_y(list.pin(end.1)) / GRID);
-            self.join(end.0, channel(end), end.2, offset);
+        for end in ends {
+            self.join(end.item, end.channel, end.left, end.offset);
         }
         for layer in first..last {
-            let item = self.add(Item { kind: Kind::Pass(index), layer, lane, height: 0, joints: vec![] });
+            let item = self.add(Item { kind: Kind::Pass(net), layer, lane, height: 0, joints: vec![] });
             self.join(item, layer, false, 0);
             self.join(item, layer + 1, true, 0);
         }

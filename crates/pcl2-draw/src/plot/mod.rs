@@ -14,6 +14,8 @@ pub use signals::{Role, Signal, signals};
 const COLUMNS: u32 = 800;
 /// So many signals are drawn.
 pub const DRAWN: usize = 40;
+/// So many boxes of nets are drawn.
+const BOXES: usize = 400;
 /// What lies beyond is drawn at the edge: spans stay finite.
 const LIMIT: f64 = 1e300;
 
@@ -25,8 +27,10 @@ pub struct Trends {
     /// In nanoseconds.
     period: Option<i64>,
     signals: Vec<Signal>,
+    /// By signal of the run: whether it is drawn.
+    drawn: Vec<bool>,
     left_out: usize,
-    /// For each signal its buckets.
+    /// For each signal that is drawn its buckets.
     buckets: Vec<Vec<Bucket>>,
 }
 
@@ -64,11 +68,22 @@ impl Bucket {
 impl Trends {
     /// Trends of a run of so many scans, with a period in nanoseconds if it has one.
     pub fn new(title: &str, scans: u64, period: Option<i64>, mut signals: Vec<Signal>) -> Trends {
-        let left_out = signals.len().saturating_sub(DRAWN);
-        signals.truncate(DRAWN);
+        let (mut others, mut boxes) = (DRAWN, BOXES);
+        let drawn: Vec<bool> = signals
+            .iter()
+            .map(|signal| {
+                let room = if signal.tokens { &mut boxes } else { &mut others };
+                let fits = *room > 0;
+                *room = room.saturating_sub(1);
+                fits
+            })
+            .collect();
+        let left_out = drawn.iter().filter(|drawn| !**drawn).count();
+        let mut fits = drawn.iter();
+        signals.retain(|_| fits.next().is_some_and(|fits| *fits));
         let columns = usize::try_from(scans.min(u64::from(COLUMNS))).unwrap_or(0);
         let buckets = vec![vec![Bucket::EMPTY; columns]; signals.len()];
-        Trends { title: title.to_owned(), scans, period, signals, left_out, buckets }
+        Trends { title: title.to_owned(), scans, period, signals, drawn, left_out, buckets }
     }
 
     /// Takes what stands after a scan: a value for each signal.
@@ -80,6 +95,7 @@ impl Trends {
             u64::try_from(column).unwrap_or(u64::MAX)
         };
         let column = usize::try_from(column).unwrap_or(usize::MAX);
+        let values = values.into_iter().zip(&self.drawn).filter(|(_, drawn)| **drawn).map(|(value, _)| value);
         for (buckets, value) in self.buckets.iter_mut().zip(values) {
             if let Some(bucket) = buckets.get_mut(column) {
                 bucket.take(value);

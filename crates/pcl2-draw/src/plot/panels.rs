@@ -1,5 +1,5 @@
 //! Which signals share a panel: what has one unit and lies in one range, set points with what they are for. Switches
-//! stand below each other, as in a timing diagram.
+//! stand below each other, as in a timing diagram, and so do all boxes of a net.
 
 use super::{Bucket, Role, Signal, range};
 
@@ -27,6 +27,8 @@ pub(super) enum Kind {
     Whole,
     /// Ints that are 0 or 1, one below the other.
     Switches,
+    /// The boxes of a net, one below the other.
+    Tokens,
 }
 
 /// Divides signals into panels, in order of the first of each.
@@ -36,13 +38,13 @@ pub(super) fn panels(signals: &[Signal], buckets: &[Vec<Bucket>]) -> Vec<Panel> 
         let range = range(&buckets[i]);
         let kind = kind(signal, range);
         let fits = |panel: &&mut Panel| {
-            panel.kind == kind && panel.signals.len() < MOST && {
+            panel.kind == kind && (kind == Kind::Tokens || panel.signals.len() < MOST) && {
                 let first = &signals[panel.signals[0]];
                 let same = first.family == signal.family
                     && first.unit == signal.unit
                     && first.names == signal.names
                     && side(first) == side(signal);
-                same && (kind == Kind::Switches || side(signal).1.is_some() || share(panel.range, range))
+                same && (kind.has_lanes() || side(signal).1.is_some() || share(panel.range, range))
             }
         };
         match panels.iter_mut().find(fits) {
@@ -56,8 +58,19 @@ pub(super) fn panels(signals: &[Signal], buckets: &[Vec<Bucket>]) -> Vec<Panel> 
     panels
 }
 
+impl Kind {
+    /// Whether each signal has a lane of its own.
+    pub(super) fn has_lanes(self) -> bool {
+        match self {
+            Kind::Switches | Kind::Tokens => true,
+            Kind::Real | Kind::Whole => false,
+        }
+    }
+}
+
 fn kind(signal: &Signal, range: Option<(f64, f64)>) -> Kind {
     match range {
+        _ if signal.tokens => Kind::Tokens,
         _ if !signal.whole => Kind::Real,
         Some((low, high)) if (low < 0.0 || high > 1.0) => Kind::Whole,
         _ if !signal.names.is_empty() => Kind::Whole,
@@ -103,7 +116,8 @@ mod tests {
     use super::*;
 
     fn signal(label: &str, whole: bool, unit: Option<&str>, role: Role) -> Signal {
-        Signal { label: label.to_owned(), family: None, whole, unit: unit.map(str::to_owned), names: Vec::new(), role }
+        let (label, unit) = (label.to_owned(), unit.map(str::to_owned));
+        Signal { label, family: None, whole, unit, names: Vec::new(), role, tokens: false }
     }
 
     fn samples(low: f64, high: f64) -> Vec<Bucket> {
@@ -145,5 +159,17 @@ mod tests {
         ];
         let ranges = [(20.0, 80.0), (1.0, 2.0), (30.0, 60.0), (0.0, 5000.0), (0.0, 1.0), (0.0, 90.0), (0.0, 0.0)];
         assert_eq!(grouped(&signals, &ranges), ["t t2", "p", "big", "on off", "count"]);
+    }
+
+    #[test]
+    fn all_boxes_of_a_net_share_a_panel() {
+        let place = |net: &str, label: &str| {
+            let family = Some(net.to_owned());
+            Signal { family, tokens: true, ..signal(label, true, None, Role::None) }
+        };
+        let mut signals: Vec<Signal> = (0..9).map(|i| place("N.box", &format!("N.s{i}"))).collect();
+        signals.push(place("M.box", "M.s0"));
+        let ranges = [(0.0, 1.0), (0.0, 7.0), (0.0, 1.0), (0.0, 0.0), (1.0, 1.0)].repeat(2);
+        assert_eq!(grouped(&signals, &ranges), ["N.s0 N.s1 N.s2 N.s3 N.s4 N.s5 N.s6 N.s7 N.s8", "M.s0"]);
     }
 }

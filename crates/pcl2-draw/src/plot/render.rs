@@ -2,7 +2,7 @@
 
 use super::panels::{self, Kind, MOST, Panel};
 use super::scale::{self, Ticks};
-use super::{Bucket, COLUMNS, Role, Trends};
+use super::{Bucket, COLUMNS, Role, Trends, range};
 use crate::svg::{self, escape};
 use std::fmt::Write;
 
@@ -20,6 +20,8 @@ const LANE: i32 = 26;
 const GAP: i32 = 20;
 const WIDTH: i32 = COLUMNS as i32;
 const SIZE: i32 = 11;
+/// The font size of a number of tokens.
+const COUNT: i32 = 9;
 /// Letters of a name that are shown.
 const NAME: usize = 20;
 
@@ -38,6 +40,12 @@ const STYLE: &str = "\
 .bad{fill:#d92d20;fill-opacity:.16}
 ";
 
+/// Beside it, where boxes of a net are drawn.
+const TOKENS: &str = "\
+.marked{fill-opacity:.14}
+.count{font-size:9px;fill:#344054}
+";
+
 /// The whole picture.
 pub(super) fn picture(trends: &Trends) -> String {
     let panels = panels::panels(&trends.signals, &trends.buckets);
@@ -45,7 +53,8 @@ pub(super) fn picture(trends: &Trends) -> String {
     let bottom = TOP + heights.iter().map(|height| height + GAP).sum::<i32>();
     let time = Time::new(trends);
     let title = format!("{}, {}", trends.title, time.length);
-    let mut text = svg::open(LEFT + WIDTH + RIGHT, bottom + BOTTOM, &title, STYLE);
+    let tokens = if panels.iter().any(|panel| panel.kind == Kind::Tokens) { TOKENS } else { "" };
+    let mut text = svg::open(LEFT + WIDTH + RIGHT, bottom + BOTTOM, &title, &format!("{STYLE}{tokens}"));
     let _ = writeln!(
         text,
         "<text class='head' x='{LEFT}' y='26'>{}<tspan class='rate'>, {}</tspan></text>",
@@ -69,7 +78,7 @@ pub(super) fn picture(trends: &Trends) -> String {
 fn height(panel: &Panel) -> i32 {
     match panel.kind {
         Kind::Real | Kind::Whole => HEIGHT,
-        Kind::Switches => LANE * i32::try_from(panel.signals.len()).unwrap_or(1),
+        Kind::Switches | Kind::Tokens => LANE * i32::try_from(panel.signals.len()).unwrap_or(1),
     }
 }
 
@@ -138,14 +147,17 @@ fn put_panel(text: &mut String, trends: &Trends, panel: &Panel, time: &Time, (to
     put_grid(text, time, top, height);
     match panel.kind {
         Kind::Real | Kind::Whole => put_ticks(text, trends, panel, &axis),
-        Kind::Switches => put_lanes(text, panel, top),
+        Kind::Switches | Kind::Tokens => put_lanes(text, trends, panel, &axis),
     }
     let _ = writeln!(text, "<rect class='panel' x='{LEFT}' y='{top}' width='{WIDTH}' height='{height}'/>");
     for (place, i) in panel.signals.iter().enumerate() {
-        put_gaps(text, trends, *i, COLOURS[place % MOST], axes(panel, &axis, *i).1);
+        put_gaps(text, trends, *i, COLOURS[place % MOST], axes(trends, panel, &axis, *i).1);
     }
     for (place, i) in panel.signals.iter().enumerate() {
-        let (own, _) = axes(panel, &axis, *i);
+        let (own, _) = axes(trends, panel, &axis, *i);
+        if panel.kind == Kind::Tokens {
+            put_marked(text, trends, *i, COLOURS[place % MOST], &own);
+        }
         put_trace(text, trends, *i, COLOURS[place % MOST], &own);
     }
     put_names(text, trends, panel, &axis);
@@ -153,13 +165,13 @@ fn put_panel(text: &mut String, trends: &Trends, panel: &Panel, time: &Time, (to
 }
 
 /// The axis of a signal in a panel, and the height of its part.
-fn axes(panel: &Panel, axis: &Axis, signal: usize) -> (Axis, (i32, i32)) {
+fn axes(trends: &Trends, panel: &Panel, axis: &Axis, signal: usize) -> (Axis, (i32, i32)) {
     match panel.kind {
         Kind::Real | Kind::Whole => (Axis { ..*axis }, (axis.top, axis.height)),
-        Kind::Switches => {
+        Kind::Switches | Kind::Tokens => {
             let lane = panel.signals.iter().position(|other| *other == signal).unwrap_or(0);
             let top = axis.top + LANE * i32::try_from(lane).unwrap_or(0);
-            (Axis { top: top + 5, height: LANE - 10, low: 0.0, high: 1.0 }, (top, LANE))
+            (Axis { top: top + 5, height: LANE - 10, low: 0.0, high: most(trends, signal) }, (top, LANE))
         }
     }
 }
@@ -194,18 +206,47 @@ fn put_ticks(text: &mut String, trends: &Trends, panel: &Panel, axis: &Axis) {
     }
 }
 
-/// Lines between lanes, and their 0 and 1.
-fn put_lanes(text: &mut String, panel: &Panel, top: i32) {
-    for lane in 0..panel.signals.len() {
-        let y = top + LANE * i32::try_from(lane).unwrap_or(0);
+/// The top of a signal's lane: 1, or the most tokens.
+fn most(trends: &Trends, signal: usize) -> f64 {
+    range(&trends.buckets[signal]).map_or(1.0, |(_, most)| most.max(1.0))
+}
+
+/// Lines between lanes, and their lowest and highest values.
+fn put_lanes(text: &mut String, trends: &Trends, panel: &Panel, axis: &Axis) {
+    for (lane, signal) in panel.signals.iter().enumerate() {
+        let y = axis.top + LANE * i32::try_from(lane).unwrap_or(0);
+        let most = most(trends, *signal);
         let _ = writeln!(
             text,
-            "<path class='grid' d='M{LEFT} {y}h{WIDTH}'/><text class='tick end' x='{x}' y='{}'>1</text>\
+            "<path class='grid' d='M{LEFT} {y}h{WIDTH}'/><text class='tick end' x='{x}' y='{}'>{most}</text>\
              <text class='tick end' x='{x}' y='{}'>0</text>",
             y + 11,
             y + LANE - 3,
             x = LEFT - 6
         );
+        if panel.kind == Kind::Tokens && most > 1.0 {
+            put_counts(text, trends, *signal, &axes(trends, panel, axis, *signal).0);
+        }
+    }
+}
+
+/// The number of tokens, where it stays long enough to be read.
+fn put_counts(text: &mut String, trends: &Trends, signal: usize, axis: &Axis) {
+    let buckets = &trends.buckets[signal];
+    let constant = |bucket: &Bucket| bucket.good && !bucket.bad && bucket.least == bucket.greatest;
+    let mut column = 0;
+    while column < buckets.len() {
+        let value = buckets[column].last;
+        let same = |bucket: &&Bucket| constant(bucket) && bucket.last == value;
+        let length = buckets[column..].iter().take_while(same).count();
+        let (from, to) = (columns(trends, column), columns(trends, column + length));
+        let number = value.to_string();
+        if value != 0.0 && to - from > i64::from(svg::width(&number, COUNT) + 6) * 10 {
+            let (x, y) = (from + 40, axis.place(value));
+            let y = if y > i64::from(axis.top + axis.height / 2) * 10 { y - 25 } else { y + 90 };
+            let _ = writeln!(text, "<text class='count' x='{}' y='{}'>{number}</text>", tenths(x), tenths(y));
+        }
+        column += length.max(1);
     }
 }
 
@@ -289,14 +330,38 @@ fn put_bucket(text: &mut String, bucket: &Bucket, x: i64, pen: Option<i64>, axis
     at
 }
 
+/// Bands under a box's tokens over the time in which it is marked.
+fn put_marked(text: &mut String, trends: &Trends, signal: usize, colour: &str, axis: &Axis) {
+    let buckets = &trends.buckets[signal];
+    let mut column = 0;
+    while column < buckets.len() {
+        let tokens = buckets[column].greatest;
+        let same = |bucket: &&Bucket| bucket.good && bucket.greatest == tokens;
+        let length = buckets[column..].iter().take_while(same).count();
+        if length > 0 && tokens > 0.0 {
+            let (top, bottom) = (axis.place(tokens), axis.place(0.0));
+            let (from, to) = (columns(trends, column), columns(trends, column + length));
+            let _ = writeln!(
+                text,
+                "<rect class='marked' fill='{colour}' x='{}' y='{}' width='{}' height='{}'/>",
+                tenths(from),
+                tenths(top),
+                tenths(to - from),
+                tenths(bottom - top)
+            );
+        }
+        column += length.max(1);
+    }
+}
+
 /// Names at the ends of traces, moved apart where they would overlap.
 fn put_names(text: &mut String, trends: &Trends, panel: &Panel, axis: &Axis) {
     let mut names: Vec<(i64, usize, usize)> = Vec::new();
     for (place, i) in panel.signals.iter().enumerate() {
-        let (own, (top, height)) = axes(panel, axis, *i);
+        let (own, (top, height)) = axes(trends, panel, axis, *i);
         let last = trends.buckets[*i].iter().rev().find(|bucket| bucket.good).map(|bucket| own.place(bucket.last));
         let middle = i64::from(top + height / 2) * 10;
-        names.push((if panel.kind == Kind::Switches { middle } else { last.unwrap_or(middle) }, place, *i));
+        names.push((if panel.kind.has_lanes() { middle } else { last.unwrap_or(middle) }, place, *i));
     }
     names.sort_unstable();
     apart(&mut names, i64::from(SIZE + 3) * 10, i64::from(axis.top + axis.height) * 10);

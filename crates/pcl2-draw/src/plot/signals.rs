@@ -22,6 +22,8 @@ pub struct Signal {
     pub names: Vec<String>,
     /// What it is to a controller.
     pub role: Role,
+    /// The tokens of a box of a net.
+    pub tokens: bool,
 }
 
 /// What a signal is to a controller.
@@ -48,7 +50,8 @@ pub fn signals<'p>(program: &Program, points: impl IntoIterator<Item = (&'p Poin
         };
         let whole = point.ty.scalar == Scalar::Int && !point.time;
         let family = (!point.ty.is_scalar()).then(|| point.name.clone());
-        Signal { label, family, whole, unit: point.unit.clone(), names: point.names.clone(), role }
+        let tokens = !point.elements.is_empty();
+        Signal { label, family, whole, unit: point.unit.clone(), names: point.names.clone(), role, tokens }
     };
     points.into_iter().map(signal).collect()
 }

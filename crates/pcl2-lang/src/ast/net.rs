@@ -9,8 +9,12 @@ use crate::types::Scalar;
 pub enum NetLine {
     /// `START out = value, ..`: what outputs are before anybody writes them.
     Start(Vec<Preset>),
+    /// `STOP out = value, out = HOLD, ..`: what outputs are while the net is stopped.
+    Stop(Vec<Halt>),
     /// `MOMENTARY start, ..`: cells that a gate clears when it fires.
     Momentary(Vec<Name>),
+    /// `MODE mode, go, fire, put, take`: inputs by which an operator works the net; later ones may be left off.
+    Mode(Vec<Name>),
     /// `LOCAL int n = 0, ..`
     Local(Vec<Typed>),
     /// `CLASS order ( int kind = 1, .. )`
@@ -35,6 +39,8 @@ pub enum NetLine {
     After(Box<Statement>),
     /// `ACTIVE step, time OF box, ..`
     Active(ActiveLine),
+    /// `BLOCKED why`: an output that tells which permissive holds a gate back.
+    Blocked(Name),
     /// `FOR i = 1 TO n`: the lines up to NEXT, n times.
     For(Name, (u32, Span), (u32, Span)),
     /// `NEXT`
@@ -68,6 +74,15 @@ pub struct Preset {
     pub value: Number,
     /// Where the value stands.
     pub span: Span,
+}
+
+/// `name = value`, `name = HOLD`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Halt {
+    /// The output.
+    pub name: Name,
+    /// The value that it has while the net is stopped, and where that stands; `None`: it holds its own.
+    pub value: Option<(Number, Span)>,
 }
 
 /// `int name = value "unit"`

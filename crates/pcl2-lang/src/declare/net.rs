@@ -1,7 +1,8 @@
 //! `.net` files as written: a head in the notation of declarations, and the lines of the net.
 
-use super::raw::Raw;
+use super::raw::{self, Raw};
 use super::{comment_above, complain, head, mistakes};
+use crate::ast::Name;
 use crate::ast::net::NetLine;
 use crate::codes;
 use crate::decl::Decl;
@@ -15,10 +16,37 @@ use crate::syntax::{Context, Lines, Words, parse_declaration_line, parse_net_lin
 pub struct NetFile {
     /// The declaration of its inputs, outputs and parameters.
     pub decl: Decl,
+    /// Where the names of the head stand.
+    pub head: HeadNames,
     /// Its lines.
     pub lines: Vec<NetLine>,
     /// Nothing was said about it so far.
     pub sound: bool,
+}
+
+/// The names in a head, in order.
+#[derive(Clone, Debug, Default)]
+pub struct HeadNames {
+    /// Inputs.
+    pub ports: Vec<Name>,
+    /// Parameters.
+    pub params: Vec<Name>,
+    /// Outputs.
+    pub outputs: Vec<Name>,
+}
+
+impl HeadNames {
+    fn new(outputs: &[raw::Output], call: &raw::Call) -> HeadNames {
+        let port = |item: &raw::Item| match item {
+            raw::Item::Port(port) => Some(port.name),
+            raw::Item::Literal(_) | raw::Item::Constant(..) => None,
+        };
+        HeadNames {
+            ports: call.items.iter().filter_map(port).collect(),
+            params: call.params.iter().map(|param| param.name).collect(),
+            outputs: outputs.iter().map(|output| output.name).collect(),
+        }
+    }
 }
 
 /// Reads a `.net` file. `None`: its head is not understood, which was reported.
@@ -40,9 +68,11 @@ pub fn read(
     };
     let start = lines.tokens.first().map_or(0, |lexeme| lexeme.start);
     let first = context.span(start, lines.position());
+    let mut names = HeadNames::default();
     let decl = match (broken, parse_declaration_line(&mut context, &lines)) {
         (false, Some(Raw::Head(outputs, call))) => {
             let mut decl = head(&mut context, &outputs, &call);
+            names = HeadNames::new(&outputs, &call);
             decl.doc = comment_above(&source.text, start as usize);
             (decl.stem, decl.user) = (stem.to_owned(), true);
             Some(decl)
@@ -62,7 +92,7 @@ pub fn read(
         decl.name = stem.to_owned();
     }
     let sound = mistakes(&mut context) == before;
-    Some(NetFile { decl, lines: parsed, sound })
+    Some(NetFile { decl, head: names, lines: parsed, sound })
 }
 
 fn no_head(context: &mut Context<'_>, span: Span, found: &str) {

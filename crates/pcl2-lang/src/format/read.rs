@@ -1,6 +1,6 @@
 //! Text -> blank lines, comments and statements.
 
-use crate::lexer::{Key, Lexeme, Lexer, SECTION_WORDS, Token};
+use crate::lexer::{Key, Lexeme, Lexer, ReservedWords, Token};
 use std::ops::Range;
 
 /// What stands between two line ends outside parentheses.
@@ -9,7 +9,7 @@ pub(super) enum Item {
     Blank,
     /// A comment on a line of its own.
     Comment(Comment),
-    /// A block, or a section word with its rate; and the comment behind it.
+    /// A block, a section word with its rate, or a line of a net; and the comment behind it.
     Line(Vec<Piece>, Option<Comment>),
 }
 
@@ -35,10 +35,10 @@ pub(super) struct Piece {
 }
 
 /// The items before END, END itself as the last, and where the text behind END begins.
-pub(super) fn items(text: &str) -> (Vec<Item>, usize) {
+pub(super) fn items(text: &str, words: ReservedWords) -> (Vec<Item>, usize) {
     let mut reader = Reader::new(text);
     let mut previous = 0;
-    for lexeme in Lexer::new(text, &SECTION_WORDS) {
+    for lexeme in Lexer::new(text, words) {
         reader.gap(previous, lexeme.start as usize);
         previous = lexeme.end as usize;
         if reader.token(lexeme) {

@@ -25,24 +25,23 @@ enum Nest {
     Index,
 }
 
-/// Looks at the tokens of one statement.
-pub(super) fn around(pieces: &[Piece]) -> Vec<Around> {
-    let call = call(pieces);
+/// Looks at the tokens of one statement. `calls`: the parentheses that open lists.
+pub(super) fn around(pieces: &[Piece], calls: &[usize]) -> Vec<Around> {
     let mut nests: Vec<Nest> = Vec::new();
     let mut around = Vec::with_capacity(pieces.len());
     let mut sign = false;
     for (i, piece) in pieces.iter().enumerate() {
         let previous = i.checked_sub(1).map(|previous| pieces[previous].token);
         let nest = nests.last().copied();
-        let blank = previous.is_some_and(|previous| !sign && blank(previous, piece.token, nest, call == Some(i)));
+        let blank = previous.is_some_and(|previous| !sign && blank(previous, piece.token, nest, calls.contains(&i)));
         sign = is_sign(previous, piece.token);
-        let colon = piece.token == Token::Colon && nests.len() == 1;
+        let colon = piece.token == Token::Colon && nests == [Nest::Call];
         let inside = matches!(nest, Some(Nest::Call | Nest::Group));
         let binary = matches!(piece.token, Token::Plus | Token::Minus) && !sign;
         let may_break = inside && (previous == Some(Token::Comma) || colon || binary);
         around.push(Around { blank, may_break, colon });
         match piece.token {
-            Token::LeftParen if call == Some(i) => nests.push(Nest::Call),
+            Token::LeftParen if calls.contains(&i) => nests.push(Nest::Call),
             Token::LeftParen => nests.push(Nest::Group),
             Token::LeftBracket => nests.push(Nest::Index),
             Token::RightParen | Token::RightBracket => drop(nests.pop()),
@@ -53,7 +52,7 @@ pub(super) fn around(pieces: &[Piece]) -> Vec<Around> {
 }
 
 /// The parenthesis that opens the lists of a call: a `:` stands in it, or nothing.
-fn call(pieces: &[Piece]) -> Option<usize> {
+pub(super) fn call(pieces: &[Piece]) -> Option<usize> {
     let equals = pieces.iter().position(|piece| piece.token == Token::Equals)?;
     let open = equals + 2;
     if pieces.get(open)?.token != Token::LeftParen {
@@ -82,6 +81,7 @@ fn is_sign(previous: Option<Token>, token: Token) -> bool {
 
 fn blank(previous: Token, token: Token, nest: Option<Nest>, opens_call: bool) -> bool {
     match (previous, token) {
+        _ if nest == Some(Nest::Index) => false,
         (Token::LeftParen, _) => nest == Some(Nest::Call),
         (_, Token::LeftParen) if previous == Token::Name => opens_call,
         (_, Token::RightParen) => nest == Some(Nest::Call),

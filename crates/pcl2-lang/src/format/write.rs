@@ -2,7 +2,7 @@
 
 use super::WIDTH;
 use super::read::{Comment, Item, Piece};
-use super::space::{Around, around};
+use super::space::{Around, around, call};
 use crate::lexer::Token;
 use crate::source::SourceFile;
 use std::ops::Range;
@@ -16,14 +16,23 @@ const BEFORE_COMMENT: usize = 2;
 
 /// A line in the making.
 #[derive(Default)]
-struct Row {
-    text: String,
+pub(super) struct Row {
+    pub(super) text: String,
     /// The bytes of the comment behind it, and whether it goes on with the one above.
-    comment: Option<(Range<usize>, bool)>,
+    pub(super) comment: Option<(Range<usize>, bool)>,
     /// Rows before and behind are not aligned with each other.
-    ends_run: bool,
+    pub(super) ends_run: bool,
     /// The row and those above it are not aligned with each other.
-    begins_run: bool,
+    pub(super) begins_run: bool,
+}
+
+impl Row {
+    /// A comment on a line of its own.
+    pub(super) fn of_comment(comment: &Comment) -> Row {
+        let ends_run = !comment.continues;
+        let comment = Some((comment.text.clone(), comment.continues));
+        Row { text: String::new(), comment, ends_run, begins_run: false }
+    }
 }
 
 /// Writes items up to END, whose line end is left to what follows it.
@@ -64,7 +73,7 @@ fn ends_run(item: &Item) -> bool {
 }
 
 /// The ending of the first line stands for all.
-fn line_end(text: &str) -> &'static str {
+pub(super) fn line_end(text: &str) -> &'static str {
     match text.find(['\r', '\n']) {
         Some(at) if text[at..].starts_with("\r\n") => "\r\n",
         Some(at) if text[at..].starts_with('\r') => "\r",
@@ -102,7 +111,7 @@ fn start_of_outputs(digits: usize) -> usize {
 }
 
 /// `a, b`
-fn outputs(pieces: &[Piece], text: &str) -> String {
+pub(super) fn outputs(pieces: &[Piece], text: &str) -> String {
     let mut outputs = String::new();
     let skip = usize::from(number(pieces).is_some());
     for piece in pieces.iter().skip(skip).take_while(|piece| piece.token != Token::Equals) {
@@ -119,9 +128,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn comment(&mut self, comment: &Comment) {
-        let ends_run = !comment.continues;
-        let comment = Some((comment.text.clone(), comment.continues));
-        self.rows.push(Row { text: String::new(), comment, ends_run, begins_run: false });
+        self.rows.push(Row::of_comment(comment));
     }
 
     fn section(&mut self, pieces: &[Piece], comment: Option<&Comment>) {
@@ -139,26 +146,16 @@ impl Writer<'_> {
         }
         head = format!("{head:equals$}");
         let first = pieces.iter().position(|piece| piece.token == Token::Equals).unwrap_or(0);
-        let around = around(pieces);
+        let calls: Vec<usize> = call(pieces).into_iter().collect();
+        let around = around(pieces, &calls);
         let breaks = breaks(pieces, &around);
         let body = Body { text: self.text, pieces: &pieces[first..], around: &around[first..], head: &head };
-        let mut breaks = breaks[first..].to_vec();
-        let mut rows = body.rows(&breaks, false);
-        if rows.iter().any(|row| row.text.len() > WIDTH) {
-            if let Some(colon) = body.around.iter().position(|around| around.colon) {
-                breaks[colon] = true;
-            }
-            rows = body.rows(&breaks, true);
-        }
-        if let (Some(row), Some(comment)) = (rows.last_mut(), comment) {
-            row.comment = Some((comment.text.clone(), false));
-        }
-        self.rows.append(&mut rows);
+        self.rows.append(&mut body.laid_out(breaks[first..].to_vec(), comment));
     }
 }
 
 /// Which tokens begin a line because they did: breaks behind a comma stay, those at the `:` stand before it.
-fn breaks(pieces: &[Piece], around: &[Around]) -> Vec<bool> {
+pub(super) fn breaks(pieces: &[Piece], around: &[Around]) -> Vec<bool> {
     let mut breaks = vec![false; pieces.len()];
     for (i, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.new_line) {
         let previous = i.checked_sub(1).map(|previous| around[previous]);
@@ -175,15 +172,31 @@ fn breaks(pieces: &[Piece], around: &[Around]) -> Vec<bool> {
     breaks
 }
 
-/// A statement from its `=` on.
-struct Body<'a> {
-    text: &'a str,
-    pieces: &'a [Piece],
-    around: &'a [Around],
-    head: &'a str,
+/// A statement from its `=` on; a line of a net behind what is aligned in it.
+pub(super) struct Body<'a> {
+    pub(super) text: &'a str,
+    pub(super) pieces: &'a [Piece],
+    pub(super) around: &'a [Around],
+    pub(super) head: &'a str,
 }
 
 impl Body<'_> {
+    /// The lines of the statement, in the width that there is.
+    pub(super) fn laid_out(&self, mut breaks: Vec<bool>, comment: Option<&Comment>) -> Vec<Row> {
+        let mut rows = self.rows(&breaks, false);
+        // Where the list begins beyond the width, breaks in it do not help.
+        if self.head.len() < WIDTH && rows.iter().any(|row| row.text.len() > WIDTH) {
+            if let Some(colon) = self.around.iter().position(|around| around.colon) {
+                breaks[colon] = true;
+            }
+            rows = self.rows(&breaks, true);
+        }
+        if let (Some(row), Some(comment)) = (rows.last_mut(), comment) {
+            row.comment = Some((comment.text.clone(), false));
+        }
+        rows
+    }
+
     /// The lines of the statement, broken where it is asked for, at comments, and, to fill lines, where they get too
     /// long.
     fn rows(&self, breaks: &[bool], fill: bool) -> Vec<Row> {
@@ -236,7 +249,7 @@ impl Body<'_> {
 }
 
 /// Puts the comments behind the rows, run by run.
-fn align(rows: &[Row], bytes: &[u8], line_end: &str) -> Vec<u8> {
+pub(super) fn align(rows: &[Row], bytes: &[u8], line_end: &str) -> Vec<u8> {
     let mut text = Vec::with_capacity(bytes.len() + bytes.len() / 4);
     let mut start = 0;
     while start < rows.len() {

@@ -5,17 +5,19 @@ use crate::decl::{Decl, Direction, Example, Item, OutputDecl, ParamDecl, RETURN_
 use crate::kernel::{self, Member};
 use crate::types::{Scalar, Width};
 
-/// A table of ports or parameters: the heads of its columns, and its rows.
-pub(super) struct Table {
-    pub(super) title: &'static str,
-    pub(super) rows: Vec<Row>,
+/// A table of ports or parameters.
+pub struct Table {
+    /// `Inputs`, `Outputs` or `Parameters`.
+    pub title: &'static str,
+    /// At least one.
+    pub rows: Vec<Row>,
 }
 
 /// Name, type, unit, default, range, note.
-pub(super) type Row = [String; 6];
+pub type Row = [String; 6];
 
 /// The heads of a table's columns.
-pub(super) const HEADS: [&str; 6] = ["", "type", "unit", "default", "range", ""];
+pub const HEADS: [&str; 6] = ["", "type", "unit", "default", "range", ""];
 
 /// `y = first ( u : a, b, x0 )`
 pub fn signature(decl: &Decl) -> String {
@@ -36,7 +38,7 @@ pub fn signature(decl: &Decl) -> String {
 }
 
 /// The tables that have rows.
-pub(super) fn tables(decl: &Decl) -> Vec<Table> {
+pub fn tables(decl: &Decl) -> Vec<Table> {
     let inputs = decl.items.iter().map(|item| input(decl, item)).collect();
     let outputs = decl.outputs.iter().enumerate().map(|(i, o)| output(decl, i, o)).collect();
     let params = decl.params.iter().map(|param| parameter(decl, param)).collect();

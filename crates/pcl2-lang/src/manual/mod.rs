@@ -5,10 +5,10 @@ mod markdown;
 mod terminal;
 mod words;
 
-pub use facts::signature;
+pub use facts::{HEADS, Row, Table, signature, tables};
 pub use markdown::document;
 pub use terminal::page;
-pub use words::range;
+pub use words::{range, value_text};
 
 use crate::decl::Decl;
 

@@ -61,7 +61,8 @@ pub(super) fn limits(decl: &Decl, tail: &Tail) -> String {
     if tail.names.is_empty() { range(decl, tail.bounds.as_ref()) } else { tail.names.join(", ") }
 }
 
-pub(super) fn value_text(value: &Value, tail: &Tail) -> String {
+/// A number as sources write it, or by its name; `..` for many.
+pub fn value_text(value: &Value, tail: &Tail) -> String {
     match value {
         Value::Int(value) => match usize::try_from(*value).ok().and_then(|index| tail.names.get(index)) {
             Some(name) => name.clone(),

@@ -1,6 +1,8 @@
 //! A net as the table that the player of the runtime walks (`runtime-c/include/pcl2_net.h`).
 
-use super::{Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Tested};
+use super::{
+    Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Tested, WordId,
+};
 use crate::types::{Real, Scalar, Value};
 
 /// A net as a table, and what an instance keeps beside.
@@ -17,7 +19,7 @@ pub struct Table {
 }
 
 /// How many words stand at the start: the player's `PCL2_NET_HEAD`.
-const HEAD: usize = 11;
+const HEAD: usize = 12;
 
 /// The entries of the head that are no counts, in order.
 #[derive(Clone, Copy)]
@@ -30,10 +32,11 @@ enum List {
     Levels,
     Actives,
     Parts,
+    Operated,
 }
 
-/// Makes the table of a net. `inner` gives the net of each part.
-pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<&'a Net>) -> Table {
+/// Makes the table of a net. `inner` gives the net of each part, and of how many nets it is made, itself included.
+pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<(&'a Net, usize)>) -> Table {
     let mut builder = Builder { net, table: Table::default() };
     builder.table.words = vec![0; HEAD];
     builder.table.words[..3].copy_from_slice(&[count(net.boxes.len()), count(net.gates.len()), count(net.words.len())]);
@@ -41,18 +44,21 @@ pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<&'a Net>) -> Table 
     builder.records(List::Boxes, net.boxes.len(), |builder, i| builder.place(&net.boxes[i]));
     builder.records(List::Gates, net.gates.len(), |builder, i| builder.gate(&net.gates[i]));
     builder.records(List::Scripts, net.touched.len(), |builder, i| builder.script(i));
-    builder.start(List::Words);
-    for word in &net.words {
-        builder.push([i32::from(word.scalar == Scalar::Real)]);
-    }
+    builder.kept_words();
     builder.levels();
     builder.actives();
+    if net.operated() {
+        builder.operated();
+    }
     builder.start(List::Parts);
     builder.push([count(net.parts.len())]);
     let first = builder.reserve(net.parts.len());
+    let mut distance = 1;
     for (i, part) in net.parts.iter().enumerate() {
         builder.table.words[first + i] = count(builder.table.words.len());
-        builder.part(part, inner(PartId(i as u32)));
+        let (inner, nets) = inner(PartId(i as u32)).unzip();
+        builder.part(part, inner, distance);
+        distance += nets.unwrap_or(0);
     }
     builder.table
 }
@@ -216,7 +222,43 @@ impl Builder<'_> {
         let touched = &self.net.touched[index];
         self.push([count(touched.writes.len())]);
         self.table.words.extend(touched.writes.iter().map(|word| word.0 as i32));
+        self.push([count(touched.counts.len())]);
+        self.table.words.extend(touched.counts.iter().map(|word| word.0 as i32));
         self.boxes(&touched.looks);
+    }
+
+    fn kept_words(&mut self) {
+        self.start(List::Words);
+        for word in &self.net.words {
+            self.push([i32::from(word.scalar == Scalar::Real)]);
+        }
+        let first = self.table.words[List::Words as usize] as usize;
+        for (word, _) in self.net.operation.iter().flat_map(|operation| &operation.stops) {
+            self.table.words[first + word.0 as usize] |= 2;
+        }
+    }
+
+    /// Modes, commands, and the numbers of permissive terms. What a word is while the net is stopped stands behind the
+    /// attributes of tokens.
+    fn operated(&mut self) {
+        self.start(List::Operated);
+        let optional = |word: Option<WordId>| word.map_or(0, |word| word.0 as i32 + 1);
+        self.push([optional(self.net.blocked)]);
+        let operation = self.net.operation.as_ref();
+        self.push([optional(operation.map(|operation| operation.mode.1))]);
+        self.push(operation.map_or([None; 4], |operation| operation.commands).map(optional));
+        let stops = operation.map_or(&[][..], |operation| &operation.stops);
+        self.push([count(stops.len())]);
+        for (word, value) in stops {
+            let place = match value {
+                Value::Int(value) => pushed(&mut self.table.ints, *value),
+                Value::Real(value) => pushed(&mut self.table.reals, *value),
+                Value::Ints(_) | Value::Reals(_) | Value::Text(_) => 0,
+            };
+            self.push([word.0 as i32, place]);
+        }
+        self.table.words.extend(self.net.numbered.iter().map(|gate| gate.0 as i32));
+        self.table.words.extend(self.net.first_terms().iter().map(|term| *term as i32));
     }
 
     fn levels(&mut self) {
@@ -263,11 +305,10 @@ impl Builder<'_> {
         }
     }
 
-    fn part(&mut self, part: &Part, inner: Option<&Net>) {
+    fn part(&mut self, part: &Part, inner: Option<&Net>, distance: usize) {
         let end = |place: Option<BoxId>| place.map_or(0, |place| place.0 as i32);
         let (entry, exit) = inner.map_or((0, 0), |net| (end(net.entry), end(net.exit)));
-        let boxes = inner.map_or(0, |net| count(net.boxes.len()));
-        self.push([entry, exit, boxes, part.place.map_or(0, |place| place.0 as i32 + 1)]);
+        self.push([entry, exit, count(distance), part.place.map_or(0, |place| place.0 as i32 + 1)]);
         match &part.abort {
             Some(abort) => {
                 self.push([abort.condition.0 as i32 + 1, abort.to.0 as i32]);
@@ -278,6 +319,12 @@ impl Builder<'_> {
         self.push([count(part.writes.len())]);
         self.table.words.extend(part.writes.iter().flat_map(|(output, word)| [*output as i32, word.0 as i32]));
     }
+}
+
+/// Adds a value to a list, and tells its place there.
+fn pushed<T>(list: &mut Vec<T>, value: T) -> i32 {
+    list.push(value);
+    count(list.len() - 1)
 }
 
 fn optional(statement: Option<StatementId>) -> i32 {

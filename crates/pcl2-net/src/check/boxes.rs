@@ -51,6 +51,11 @@ fn whole(builder: &mut Builder<'_>, without_parts: bool) {
     }
 }
 
+/// `1 token`, `2 tokens`
+pub(super) fn counted(tokens: u32) -> String {
+    if tokens == 1 { "1 token".to_owned() } else { format!("{tokens} tokens") }
+}
+
 struct Filler<'b, 'a> {
     builder: &'b mut Builder<'a>,
     id: BoxId,
@@ -249,7 +254,7 @@ impl Filler<'_, '_> {
         };
         let tokens = count.map_or(1, |(count, _)| count);
         if let Some(capacity) = place.capacity.filter(|capacity| tokens > *capacity) {
-            let message = format!("expected at most {capacity} tokens in `{}`, found {tokens}", place.name);
+            let message = format!("expected at most {} in `{}`, found {tokens}", counted(capacity), place.name);
             let span = count.map_or(span, |(_, span)| span);
             self.builder.complain(codes::CAPACITY, span, message, "mark it with fewer, or make it larger");
         }

@@ -1,12 +1,13 @@
 //! Pass 5: gates in the order in which a scan tries them, with every token's way.
 
+use super::boxes::counted;
 use super::outline::{GateLines, Outline, RuleLines};
 use super::{Builder, Thing};
 use pcl2_lang::ast::net::{ArcTerm, BoxName, GateClause, Route};
 use pcl2_lang::ast::{Operand, Statement};
 use pcl2_lang::codes;
 use pcl2_lang::diagnostic::Diagnostic;
-use pcl2_lang::net::{Arc, BoxId, Gate, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
+use pcl2_lang::net::{Arc, BoxId, Gate, GateId, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
 use pcl2_lang::symbol::Symbol;
@@ -30,8 +31,14 @@ pub(super) fn gates(builder: &mut Builder<'_>, outline: &mut Outline) {
             return;
         }
     }
+    let mut order: Vec<usize> = (0..gates.len()).collect();
+    order.sort_by_key(|i| -i64::from(gates[*i].priority));
+    let mut numbered = vec![GateId(0); gates.len()];
+    for (place, i) in order.into_iter().enumerate() {
+        numbered[i] = GateId(place as u32);
+    }
     gates.sort_by_key(|gate| -i64::from(gate.priority));
-    builder.net.gates = gates;
+    (builder.net.gates, builder.net.numbered) = (gates, numbered);
 }
 
 struct Reader<'b, 'a> {
@@ -214,7 +221,7 @@ impl Reader<'_, '_> {
             };
             if let Some(most) = most.filter(|most| arc.weight > *most) {
                 let message =
-                    format!("expected at most {most} tokens from or to `{}`, found {}", place.name, arc.weight);
+                    format!("expected at most {} from or to `{}`, found {}", counted(most), place.name, arc.weight);
                 let span = term.weight.map_or(term.place.span(), |(_, span)| span);
                 self.builder.complain(codes::CAPACITY, span, message, "the gate could never fire");
             }
@@ -289,11 +296,24 @@ impl Reader<'_, '_> {
                         "expected a token of the class `{class}` for `{}`, found another or none before the gate",
                         place.name
                     );
-                    self.builder.complain(codes::TOKEN_CLASS, span, message, "say with THEN which token goes where");
+                    let help = self.route_help(gate, arc.place);
+                    self.builder.complain(codes::TOKEN_CLASS, span, message, &help);
                 }
             }
         }
         moves
+    }
+
+    /// The THEN lines that give a box a token of its class.
+    fn route_help(&self, gate: &Gate, to: BoxId) -> String {
+        let net = &self.builder.net;
+        let (class, name) = (net.place(to).class, &net.place(to).name);
+        let before = || gate.before.iter().map(|arc| net.place(arc.place));
+        if let Some(from) = before().find(|place| place.class == class) {
+            return format!("say with THEN which token goes where: `THEN {} -> {name}`", from.name);
+        }
+        let vanish = before().map(|place| format!("`THEN {} -> nothing`, ", place.name)).collect::<String>();
+        format!("make a new one: {vanish}`THEN NEW -> {name}`")
     }
 
     fn moves(&mut self, gate: &Gate, routes: &[Route], span: Span) -> Vec<Move> {

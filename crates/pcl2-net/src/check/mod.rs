@@ -7,12 +7,14 @@
 //! 4. `parts`: every part is connected.
 //! 5. `gates`: every token that a gate takes goes somewhere, and every one that it puts comes from somewhere.
 //! 6. `words`: every output is driven or written.
+//! 7. `operation`: an operator's modes and commands, and the names of what outputs tell, are known.
 //!
 //! Statements are not looked into here: the body of the declaration is compiled as a composite's is.
 
 mod boxes;
 mod gates;
 mod names;
+mod operation;
 mod outline;
 mod parts;
 mod words;
@@ -33,10 +35,12 @@ use pcl2_lang::types::{Real, Scalar, Value};
 use rustc_hash::FxHashMap;
 
 /// What can go wrong in a scan of any net, in the order of the player's statuses.
-const FAULTS: [(&str, &str); 3] = [
+const FAULTS: [(&str, &str); 5] = [
     ("lost", "a token was to be made while another waited for room: it is lost"),
     ("conflict", "two different values were written to an output in one scan: the gate of higher priority wins"),
     ("late", "a process was not complete within its supervision time"),
+    ("forced", "an operator forced a gate or a token"),
+    ("refused", "a command of an operator was refused: the mode, the tokens or the room did not let it"),
 ];
 
 /// The nets that a net takes in: the codes of its parts.
@@ -57,14 +61,15 @@ pub fn compile(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Decl> {
     let before = mistakes(diagnostics);
-    let NetFile { decl, lines, sound } = file;
+    let NetFile { decl, head, lines, sound } = file;
     let mut builder = Builder::new(decl, sources, symbols, catalogue, diagnostics);
     let mut outline = outline::outline(&mut builder, lines);
-    names::collect(&mut builder, &outline);
+    names::collect(&mut builder, &head, &outline);
     boxes::boxes(&mut builder, &mut outline);
     parts::parts(&mut builder, &mut outline);
     gates::gates(&mut builder, &mut outline);
     words::words(&mut builder, &outline);
+    operation::operation(&mut builder, &outline);
     let whole = builder.finish();
     (sound && mistakes(diagnostics) == before).then_some(whole)
 }
@@ -210,11 +215,11 @@ impl<'a> Builder<'a> {
             match output {
                 Output::Member(owner, _) => looks.extend(place(owner)),
                 Output::Name(name) => {
-                    if let (Some((Thing::Word(word), _)), false) =
-                        (self.names.get(&name.symbol), reads.contains(&name.symbol))
-                    {
-                        touched.writes.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
-                    }
+                    let Some((Thing::Word(word), _)) = self.names.get(&name.symbol) else {
+                        continue;
+                    };
+                    let list = if reads.contains(&name.symbol) { &mut touched.counts } else { &mut touched.writes };
+                    list.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
                 }
                 Output::Discard(_) => {}
             }

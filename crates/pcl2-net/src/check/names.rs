@@ -1,11 +1,12 @@
 //! Pass 2: words, classes, boxes and parts have their places and names of their own.
 
 use super::outline::{Outline, Placed};
-use super::{Builder, Thing, zero};
+use super::{Builder, Thing, operation, zero};
 use pcl2_lang::ast::Name;
 use pcl2_lang::ast::net::{BoxKind, BoxLine, Preset, Typed};
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Item, OutputDecl, PortDecl, Tail, TypeExpr};
+use pcl2_lang::declare::net::HeadNames;
 use pcl2_lang::net::{
     Attribute, BOX_OUTPUT, BoxId, Class, Drive, Kind, MAX_COUNT, NetBox, Order, PartId, Word, WordId,
 };
@@ -13,9 +14,10 @@ use pcl2_lang::source::Span;
 use pcl2_lang::types::{Scalar, Value};
 
 /// Gives everything its place.
-pub(super) fn collect(builder: &mut Builder<'_>, outline: &Outline) {
-    head(builder);
+pub(super) fn collect(builder: &mut Builder<'_>, names: &HeadNames, outline: &Outline) {
+    head(builder, names);
     commands(builder, outline);
+    operation::modes(builder, outline);
     for local in &outline.locals {
         builder.local(local);
     }
@@ -27,28 +29,23 @@ pub(super) fn collect(builder: &mut Builder<'_>, outline: &Outline) {
 }
 
 /// Ports, parameters and outputs of the head.
-fn head(builder: &mut Builder<'_>) {
+fn head(builder: &mut Builder<'_>, names: &HeadNames) {
     let span = builder.decl.span;
     let ports: Vec<PortDecl> = builder.decl.ports().cloned().collect();
     if builder.decl.items.len() != ports.len() || ports.iter().any(|port| port.group.is_some()) {
         let message = "expected ports only in the head of a net, found a constant or a group";
         builder.complain(codes::BAD_DECLARATION, span, message, "a net has one size; take a vector: `ivec[5] done`");
     }
-    for port in &ports {
-        builder.declare(&port.name, Thing::Port, span);
-    }
-    let params: Vec<String> = builder.decl.params.iter().map(|param| param.name.clone()).collect();
-    for param in params {
-        builder.declare(&param, Thing::Param, span);
-    }
-    for output in builder.decl.outputs.clone() {
+    names.ports.iter().for_each(|name| builder.declare_name(*name, Thing::Port));
+    names.params.iter().for_each(|name| builder.declare_name(*name, Thing::Param));
+    for (output, name) in builder.decl.outputs.clone().into_iter().zip(&names.outputs) {
         let TypeExpr::Scalar(scalar) = output.ty else {
             let message =
                 format!("expected an int or a real as output of a net, found another type for `{}`", output.name);
-            builder.complain(codes::BAD_DECLARATION, span, message, "give each element an output of its own");
+            builder.complain(codes::BAD_DECLARATION, name.span, message, "give each element an output of its own");
             continue;
         };
-        builder.word(&output.name, scalar, zero(scalar), span);
+        builder.word(&output.name, scalar, zero(scalar), name.span);
     }
     builder.net.outputs = builder.net.words.len();
 }
@@ -57,15 +54,8 @@ fn head(builder: &mut Builder<'_>) {
 fn commands(builder: &mut Builder<'_>, outline: &Outline) {
     for name in &outline.momentary {
         let text = builder.text(*name);
-        let port = builder.decl.ports().position(|port| port.name == text);
-        let fits =
-            builder.decl.ports().any(|port| port.name == text && port.cell && port.ty == TypeExpr::Scalar(Scalar::Int));
-        match port {
-            Some(port) if fits => builder.command(port, &text, name.span),
-            Some(_) | None => {
-                let message = format!("expected an input that is declared `cell int`, found `{text}`");
-                builder.complain(codes::NET_LINE, name.span, message, "declare it in the head: `cell int start = 0`");
-            }
+        if let Some(port) = builder.momentary(*name, &text) {
+            builder.command(port, &text, name.span);
         }
     }
 }
@@ -123,7 +113,10 @@ impl Builder<'_> {
             Some((_, other)) => {
                 let message = format!("expected a name of its own, found `{text}` a second time");
                 let report = pcl2_lang::diagnostic::Diagnostic::new(codes::NET_NAME_TAKEN, name.span, message);
-                self.diagnostics.push(report.label(*other, "the first").help("take another name"));
+                let other = *other;
+                self.diagnostics.push(report.label(other, "the first").help("take another name"));
+                // Which of the two is meant where it is used is not known.
+                self.names.insert(name.symbol, (Thing::Spoiled, other));
             }
             None => {
                 self.names.insert(name.symbol, (thing, name.span));
@@ -137,7 +130,7 @@ impl Builder<'_> {
         self.push_word(name, scalar, initial, span);
     }
 
-    fn push_word(&mut self, name: &str, scalar: Scalar, initial: Value, span: Span) {
+    pub(super) fn push_word(&mut self, name: &str, scalar: Scalar, initial: Value, span: Span) {
         let (name, drive) = (name.to_owned(), Drive::Written);
         self.net.words.push(Word { name, scalar, initial, drive, span });
         self.written.push(None);
@@ -153,7 +146,23 @@ impl Builder<'_> {
         self.word(&name, local.scalar, initial.unwrap_or_else(|| zero(local.scalar)), local.name.span);
     }
 
-    fn command(&mut self, port: usize, name: &str, span: Span) {
+    /// The port of a command: one that a net can clear, and that is no command yet.
+    pub(super) fn momentary(&mut self, name: Name, text: &str) -> Option<usize> {
+        let int = TypeExpr::Scalar(Scalar::Int);
+        let port = self.decl.ports().position(|port| port.name == text && port.cell && port.ty == int);
+        if port.is_some_and(|port| self.net.momentary.iter().any(|(known, _)| *known as usize == port)) {
+            let message = format!("expected each command once, found `{text}` again");
+            self.complain(codes::NET_LINE, name.span, message, "a command is for one thing");
+            return None;
+        }
+        if port.is_none() {
+            let message = format!("expected an input that is declared `cell int`, found `{text}`");
+            self.complain(codes::NET_LINE, name.span, message, "declare it in the head: `cell int start = 0`");
+        }
+        port
+    }
+
+    pub(super) fn command(&mut self, port: usize, name: &str, span: Span) {
         let id = WordId(self.net.words.len() as u32);
         let symbol = self.symbols.intern(name);
         self.names.insert(symbol, (Thing::Word(id), span));

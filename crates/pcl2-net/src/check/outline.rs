@@ -2,7 +2,7 @@
 
 use super::Builder;
 use pcl2_lang::ast::net::{
-    ActiveLine, BoxClause, BoxLine, BoxName, GateClause, GateLine, NetLine, Preset, Route, Typed,
+    ActiveLine, BoxClause, BoxLine, BoxName, GateClause, GateLine, Halt, NetLine, Preset, Route, Typed,
 };
 use pcl2_lang::ast::{Name, Statement};
 use pcl2_lang::codes;
@@ -12,13 +12,16 @@ use pcl2_lang::source::Span;
 #[derive(Default)]
 pub(super) struct Outline {
     pub(super) starts: Vec<Preset>,
+    pub(super) stops: Vec<Halt>,
     pub(super) momentary: Vec<Name>,
+    pub(super) modes: Vec<Vec<Name>>,
     pub(super) locals: Vec<Typed>,
     pub(super) classes: Vec<(Name, Vec<Typed>)>,
     pub(super) boxes: Vec<BoxLines>,
     pub(super) parts: Vec<PartLines>,
     pub(super) gates: Vec<GateLines>,
     pub(super) actives: Vec<ActiveLine>,
+    pub(super) blocked: Vec<Name>,
     /// Boxes and parts in order of declaration.
     pub(super) order: Vec<Placed>,
 }
@@ -90,10 +93,13 @@ impl Outline {
     fn take(&mut self, builder: &mut Builder<'_>, line: NetLine, current: Current) -> Current {
         match line {
             NetLine::Start(presets) => self.starts.extend(presets),
+            NetLine::Stop(halts) => self.stops.extend(halts),
             NetLine::Momentary(names) => self.momentary.extend(names),
+            NetLine::Mode(names) => self.modes.push(names),
             NetLine::Local(locals) => self.locals.extend(locals),
             NetLine::Class(name, attributes) => self.classes.push((name, attributes)),
             NetLine::Active(active) => self.actives.push(active),
+            NetLine::Blocked(name) => self.blocked.push(name),
             NetLine::For(..) | NetLine::Next(_) | NetLine::End(_) => {}
             NetLine::Box(line) => return self.place(*line),
             NetLine::Part(is_macro, name, call) => {

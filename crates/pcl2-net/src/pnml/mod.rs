@@ -5,4 +5,5 @@ mod error;
 mod read;
 
 pub use error::PnmlError;
+pub(crate) use read::PTNET;
 pub use read::read;

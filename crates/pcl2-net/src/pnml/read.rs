@@ -53,7 +53,7 @@ fn only_net<'a, 'input>(root: Node<'a, 'input>) -> Result<Node<'a, 'input>, Pnml
 }
 
 /// The type of a place/transition net.
-pub(super) const PTNET: &str = "http://www.pnml.org/version-2009/grammar/ptnet";
+pub(crate) const PTNET: &str = "http://www.pnml.org/version-2009/grammar/ptnet";
 
 /// Older drafts and tools had other names for it.
 fn is_place_transition(kind: &str) -> bool {

@@ -69,7 +69,7 @@ pub(crate) fn titles(groups: Vec<Vec<&str>>) -> Vec<String> {
     groups.iter().map(title).collect()
 }
 
-/// What all names begin with, without a dangling `_`.
+/// What all names begin with, without a dangling `_` or dot.
 fn common_start<'a>(names: &[&'a str]) -> &'a str {
     let Some((first, others)) = names.split_first() else {
         return "";
@@ -77,7 +77,7 @@ fn common_start<'a>(names: &[&'a str]) -> &'a str {
     let same =
         |other: &&str| first.chars().zip(other.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum();
     let length = others.iter().map(same).min().unwrap_or(first.len());
-    first[..length].trim_end_matches('_')
+    first[..length].trim_end_matches(['_', '.'])
 }
 
 /// Sets of nodes that are joined pair by pair.

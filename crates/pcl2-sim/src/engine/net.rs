@@ -3,8 +3,8 @@
 use super::Unsupported;
 use super::place::{Body, Fill, Node, Store, width_of};
 use crate::ffi::{Answer, NetPlan, Script, Slot};
-use pcl2_lang::net::Net;
 use pcl2_lang::net::table::{self, Table};
+use pcl2_lang::net::{Net, PartId};
 use pcl2_lang::program::{Program, Role, SignalId, Unit};
 use pcl2_lang::types::Scalar;
 use std::ops::Range;
@@ -31,7 +31,7 @@ impl<'a> Store<'a> {
     /// Places what a net keeps.
     pub(crate) fn net(&mut self, net: &'a Net, body: &Body) -> Result<NetStore, Unsupported> {
         let program = self.program;
-        let inner = |part| inner_net(program, body, net, part);
+        let inner = |part: PartId| inner_net(program, body, net, part);
         let table = table::table(net, &inner);
         let held = first_held(program.unit(body.unit));
         let words: Vec<usize> = (0..net.words.len()).map(|i| body.signals[held + i]).collect();
@@ -55,7 +55,8 @@ impl<'a> Store<'a> {
         let real = width_of(Scalar::Real, self.program.width);
         let sizes =
             [boxes, boxes, boxes, boxes, boxes, boxes, boxes * 2, table.ints.len() * 4, table.reals.len() * real];
-        for bytes in sizes.into_iter().chain([words, actives * 4, actives * 8, 4, 4]) {
+        let modes: &[usize] = if net.operation.is_some() { &[8, 4, 4, 4] } else { &[] };
+        for bytes in sizes.into_iter().chain([words, actives * 4, actives * 8, 4, 4]).chain(modes.iter().copied()) {
             arrays.push(Slot { at: self.take(bytes.max(8))?, bytes: bytes.max(8) });
         }
         for (i, value) in table.ints.iter().enumerate() {
@@ -72,10 +73,16 @@ impl<'a> Store<'a> {
 const INTS: usize = 8;
 const REALS: usize = 9;
 
-fn inner_net<'a>(program: &'a Program, body: &Body, net: &Net, part: pcl2_lang::net::PartId) -> Option<&'a Net> {
+fn inner_net<'a>(program: &'a Program, body: &Body, net: &Net, part: PartId) -> Option<(&'a Net, usize)> {
     let statement = net.parts.get(part.0 as usize)?.statement;
     let node = body.nodes.get(statement.0 as usize)?;
-    program.decl(node.decl).net.as_deref()
+    Some((program.decl(node.decl).net.as_deref()?, count(node)))
+}
+
+/// How many nets a net is made of, itself included.
+fn count(node: &Node) -> usize {
+    let inner = node.inner.iter().flat_map(|body| &body.nodes).filter(|node| node.net.is_some());
+    1 + inner.map(count).sum::<usize>()
 }
 
 /// What the player is handed of a net; statements and parts are filled in as they are wired.
@@ -85,7 +92,8 @@ pub(crate) fn plan(store: &NetStore, status: usize, period: i64) -> NetPlan {
         arrays: store.arrays.clone(),
         words: store.words.clone(),
         hands: store.hands.clone(),
-        parts: Vec::new(),
+        outer: None,
+        inputs: 0,
         scripts: Vec::new(),
         latch: 0..0,
         status,

@@ -235,8 +235,10 @@ impl<'a, 'b> Wiring<'a, 'b> {
             let script = match (&mut node.inner, &node.net) {
                 (Some(body), Some(net)) => {
                     let part = self.net(inner, id, (node.status, net), body, &context, checks)?;
-                    self.plan.nets[index].parts.push(part);
-                    net::script(0..0, inner, node, i, Vec::new())
+                    let plan = &mut self.plan.nets[part];
+                    (plan.outer, plan.inputs) = (Some(index), i as i32);
+                    let latch = plan.latch.clone();
+                    net::script(latch, inner, node, i, Vec::new())
                 }
                 (Some(_), None) | (None, _) => {
                     let start = self.plan.tape(Tape::Step).len();
@@ -266,8 +268,8 @@ impl<'a, 'b> Wiring<'a, 'b> {
             return Ok(());
         };
         let held = inner.signals.iter().position(|signal| signal.role == Role::Held).unwrap_or(0);
-        for (port, word) in &net.momentary {
-            let (from, to) = (body.signals[*port as usize], body.signals[held + word.0 as usize]);
+        for (port, word) in net.latched() {
+            let (from, to) = (body.signals[port as usize], body.signals[held + word.0 as usize]);
             self.plan.tape(Tape::Step).push(Op::Copy { from, to, bytes: 4 });
         }
         Ok(())

@@ -76,7 +76,8 @@ fn arm(out: &Path) -> Result<Command, String> {
     compiler("arm-none-eabi-gcc", &FLAGS, out)
 }
 
-fn object(out: &Path, source: &Path) -> Result<PathBuf, String> {
+/// Compiles a file of a built program for the Cortex-M4.
+pub(crate) fn object(out: &Path, source: &Path) -> Result<PathBuf, String> {
     let object = source.with_extension("o");
     output(arm(out)?.arg("-c").arg("-o").arg(&object).arg(source))?;
     Ok(object)
@@ -86,6 +87,13 @@ fn object(out: &Path, source: &Path) -> Result<PathBuf, String> {
 fn sections(object: &Path) -> Result<Vec<(String, u64)>, String> {
     let listing = text(Command::new("arm-none-eabi-size").arg("-A").arg(object))?;
     Ok(listing.lines().filter_map(section).collect())
+}
+
+/// Bytes of code and constants that `size -A` tells of.
+pub(crate) fn code(size: &mut Command) -> Result<f64, String> {
+    let listing = text(size)?;
+    let counted = |name: &str| name.starts_with(".text") || name.starts_with(".rodata");
+    Ok(listing.lines().filter_map(section).filter(|(name, _)| counted(name)).map(|(_, size)| size).sum::<u64>() as f64)
 }
 
 fn section(line: &str) -> Option<(String, u64)> {

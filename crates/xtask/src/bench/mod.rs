@@ -5,6 +5,7 @@ mod child;
 mod compare;
 mod front;
 mod kernels;
+mod literature;
 mod m4;
 mod nets;
 mod run;
@@ -50,6 +51,8 @@ enum Area {
     Kernels,
     /// Size and instruction counts on a Cortex-M4
     M4,
+    /// Scans, code and compile time of nets
+    Nets,
     /// Speed of `run`
     Run,
     /// Speed and memory of `net analyze`
@@ -82,6 +85,7 @@ fn measure(area: Area, tools: &Tools, table: &mut Table) -> Result<(), String> {
         Area::Scan => scan::measure(tools, table),
         Area::Kernels => kernels::measure(tools, table),
         Area::M4 => m4::measure(tools, table),
+        Area::Nets => nets::measure(tools, table),
         Area::Run => run::measure(tools, table),
         Area::Space => space::measure(tools, table),
     }
@@ -94,6 +98,7 @@ fn name(area: Area) -> &'static str {
         Area::Scan => "scan",
         Area::Kernels => "kernels",
         Area::M4 => "m4",
+        Area::Nets => "nets",
         Area::Run => "run",
         Area::Space => "space",
     }

@@ -1,237 +1,225 @@
-//! Nets of the literature, written as PNML.
+//! Nets as C: a scan against a table player with guard functions, code of a gate, growth.
 
+use super::child::in_turn;
+use super::compare::Times;
+use super::m4;
+use super::table::{Bar, Row, Table};
+use super::tools::{Tools, bench_folder, compiler, output, runtime_sources, write};
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
-/// A place/transition net.
-#[derive(Default)]
-pub(crate) struct Net {
-    places: Vec<(String, u64)>,
-    transitions: Vec<Transition>,
+/// K-NET's reference size.
+const BOXES: usize = 284;
+const GATES: usize = 281;
+const INPUTS: usize = 32;
+const OUTPUTS: usize = 31;
+/// Boxes of a loop.
+const LOOP: usize = 8;
+const LOOPS: usize = 35;
+/// Loops whose input changes in each busy scan.
+const MOVING: usize = 13;
+
+pub(crate) fn measure(tools: &Tools, table: &mut Table) -> Result<(), String> {
+    let folder = built(tools, "nets/one", 1)?;
+    scans(tools, table, &folder)?;
+    code(tools, table, &folder)?;
+    growth(tools, table)
 }
 
-/// A name, the places that it takes from, the places that it puts into.
-type Transition = (String, Vec<String>, Vec<String>);
+/// Loops of eight states each, a gate between two of them asks an input; two loops share a key now and then; and a lamp.
+/// `copies` times the reference size.
+struct Plant {
+    boxes: Vec<(String, bool, Option<usize>)>,
+    gates: Vec<Gate>,
+}
 
-impl Net {
-    fn place(&mut self, name: &str, tokens: u64) {
-        self.places.push((name.to_owned(), tokens));
-    }
+struct Gate {
+    before: Vec<usize>,
+    after: Vec<usize>,
+    /// An input, and whether it must be 1.
+    guard: Vec<(usize, bool)>,
+}
 
-    /// Both lists are names between blanks.
-    fn transition(&mut self, name: &str, takes: &str, puts: &str) {
-        let names = |list: &str| list.split_whitespace().map(str::to_owned).collect();
-        self.transitions.push((name.to_owned(), names(takes), names(puts)));
-    }
-
-    /// As PNML.
-    pub(crate) fn pnml(&self) -> String {
-        let mut text = "<pnml xmlns=\"http://www.pnml.org/version-2009/grammar/pnml\">\n".to_owned();
-        text += "<net id=\"net\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\"><page id=\"page\">\n";
-        for (name, tokens) in &self.places {
-            let marking = format!("<initialMarking><text>{tokens}</text></initialMarking>");
-            let _ = writeln!(text, "<place id=\"{name}\">{marking}</place>");
+impl Plant {
+    fn new(copies: usize) -> Plant {
+        let mut plant = Plant { boxes: Vec::new(), gates: Vec::new() };
+        for copy in 0..copies {
+            plant.copy(copy);
         }
-        for (name, takes, puts) in &self.transitions {
-            let _ = writeln!(text, "<transition id=\"{name}\"/>");
-            let arcs = takes.iter().map(|place| (place, name)).chain(puts.iter().map(|place| (name, place)));
-            for (source, target) in arcs {
-                let _ = writeln!(text, "<arc source=\"{source}\" target=\"{target}\"/>");
+        plant
+    }
+
+    fn copy(&mut self, copy: usize) {
+        let first = self.boxes.len();
+        for l in 0..LOOPS {
+            for s in 0..LOOP {
+                // Every fifth state drives an output, as do the first states of some loops.
+                let output = (s % 5 == 1).then_some((l + copy) % (OUTPUTS - 1));
+                self.boxes.push((format!("s{copy}_{l}_{s}"), s == 0, output));
             }
         }
-        text + "</page></net></pnml>\n"
-    }
-}
-
-/// Four cells with n cards each; the second and the third work side by side (Ciardo, Tilgner 1996).
-pub(crate) fn kanban(n: u64) -> Net {
-    let mut net = Net::default();
-    for cell in 1..=4 {
-        for (state, tokens) in [("card", n), ("work", 0), ("bad", 0), ("done", 0)] {
-            net.place(&format!("{state}{cell}"), tokens);
+        let extra = self.boxes.len();
+        self.boxes.push((format!("key{copy}_0"), true, None));
+        self.boxes.push((format!("key{copy}_1"), true, None));
+        self.boxes.push((format!("dark{copy}"), true, None));
+        self.boxes.push((format!("lit{copy}"), false, Some(OUTPUTS - 1)));
+        for l in 0..LOOPS {
+            for s in 0..LOOP {
+                self.gates.push(gate(first, extra, l, s));
+            }
         }
-        net.transition(&format!("fail{cell}"), &format!("work{cell}"), &format!("bad{cell}"));
-        net.transition(&format!("repeat{cell}"), &format!("bad{cell}"), &format!("work{cell}"));
-        net.transition(&format!("pass{cell}"), &format!("work{cell}"), &format!("done{cell}"));
+        let lamp = Gate { before: vec![extra + 2], after: vec![extra + 3], guard: vec![(30, true), (31, true)] };
+        self.gates.push(lamp);
     }
-    net.transition("enter", "card1", "work1");
-    net.transition("divide", "done1 card2 card3", "card1 work2 work3");
-    net.transition("join", "done2 done3 card4", "card2 card3 work4");
-    net.transition("leave", "done4", "card4");
-    net
-}
 
-/// A flexible manufacturing system with n pallets of each of three kinds of parts, of which the first two may be joined
-/// (Ciardo, Trivedi 1993).
-pub(crate) fn fms(n: u64) -> Net {
-    let mut net = Net::default();
-    for (machine, count) in [("M1", 3), ("M2", 1), ("M3", 2)] {
-        net.place(machine, count);
-    }
-    for part in ["P1", "P2", "P3"] {
-        net.place(part, n);
-        net.place(&format!("{part}s"), 0);
-    }
-    for part in ["P1", "P2"] {
-        for state in ["w", "m", "d", "j"] {
-            net.place(&format!("{part}{state}"), 0);
+    /// The net.
+    fn text(&self) -> String {
+        let list = |names: &[String]| names.join(", ");
+        let outputs: Vec<String> = (0..OUTPUTS).map(|i| format!("int y{i}")).collect();
+        let inputs: Vec<String> = (0..INPUTS).map(|i| format!("int x{i}")).collect();
+        let mut text = format!("{} = plant ( {} : )\n", list(&outputs), list(&inputs));
+        for (name, marked, output) in &self.boxes {
+            let marked = if *marked { " MARKED" } else { "" };
+            let drives = output.map(|output| format!(" DRIVES y{output}")).unwrap_or_default();
+            let _ = writeln!(text, "STATE {name}{marked}{drives}");
         }
-        let machine = if part == "P1" { "M1" } else { "M2" };
-        net.transition(&format!("{part}_come"), part, &format!("{part}w"));
-        net.transition(&format!("{part}_begin"), &format!("{part}w {machine}"), &format!("{part}m"));
-        net.transition(&format!("{part}_end"), &format!("{part}m"), &format!("{part}d {machine}"));
-        net.transition(&format!("{part}_alone"), &format!("{part}d"), &format!("{part}s"));
-        net.transition(&format!("{part}_wait"), &format!("{part}d"), &format!("{part}j"));
-        net.transition(&format!("{part}_ship"), &format!("{part}s"), part);
-    }
-    for state in ["P12", "P12w", "P12m", "P12s", "P3m"] {
-        net.place(state, 0);
-    }
-    net.transition("join", "P1j P2j", "P12");
-    net.transition("P12_come", "P12", "P12w");
-    net.transition("P12_begin", "P12w M3", "P12m");
-    net.transition("P12_end", "P12m", "P12s M3");
-    net.transition("P12_ship", "P12s", "P1 P2");
-    net.transition("P3_come", "P3", "P3m");
-    net.transition("P3_work", "P3m M2", "P3s M2");
-    net.transition("P3_ship", "P3s", "P3");
-    net
-}
-
-/// The order of the jobs in building a house, for n houses (Peterson 1981; a model of the Model Checking Contest).
-pub(crate) fn house_construction(n: u64) -> Net {
-    const JOBS: [(&str, &str); 18] = [
-        ("p1", "p2"),
-        ("p2", "p3"),
-        ("p3", "p4 p5 p6"),
-        ("p6", "p7 p8 p12"),
-        ("p5", "p9 p13"),
-        ("p7", "p11"),
-        ("p4 p15", "p16"),
-        ("p11", "p15"),
-        ("p8 p9", "p10"),
-        ("p10 p12 p13", "p14"),
-        ("p14", "p17"),
-        ("p17", "p18 p19 p20"),
-        ("p22", "p23 p27"),
-        ("p25 p26 p27", ""),
-        ("p19 p20", "p22"),
-        ("p18", "p21"),
-        ("p21 p23", "p26"),
-        ("p16", "p25"),
-    ];
-    let mut net = Net::default();
-    for place in (1..=27).filter(|place| *place != 24) {
-        net.place(&format!("p{place}"), if place == 1 { n } else { 0 });
-    }
-    for (job, (takes, puts)) in JOBS.iter().enumerate() {
-        net.transition(&format!("job{job}"), takes, puts);
-    }
-    net
-}
-
-/// A pool with cabins and bags for 20 n guests (Model Checking Contest; Brams 1983).
-pub(crate) fn swimming_pool(n: u64) -> Net {
-    let mut net = Net::default();
-    for (place, tokens) in [("out", 20 * n), ("cabins", 10 * n), ("bags", 15 * n)] {
-        net.place(place, tokens);
-    }
-    for place in ["entered", "waiting", "undressing", "bathing", "dressing", "dressed"] {
-        net.place(place, 0);
-    }
-    net.transition("enter", "out", "entered");
-    net.transition("take_key", "entered cabins", "waiting");
-    net.transition("take_bag", "waiting bags", "undressing");
-    net.transition("leave_cabin", "undressing", "bathing cabins");
-    net.transition("take_key_again", "bathing cabins", "dressing");
-    net.transition("give_bag_back", "dressing", "dressed bags");
-    net.transition("give_key_back", "dressed", "out cabins");
-    net
-}
-
-/// n voters say yes or no (Model Checking Contest).
-pub(crate) fn referendum(n: u64) -> Net {
-    let mut net = Net::default();
-    net.place("ready", 1);
-    let mut voting = String::new();
-    for voter in 1..=n {
-        for state in ["voting", "yes", "no"] {
-            net.place(&format!("{state}{voter}"), 0);
+        let names = |boxes: &[usize]| list(&boxes.iter().map(|i| self.boxes[*i].0.clone()).collect::<Vec<_>>());
+        for (i, gate) in self.gates.iter().enumerate() {
+            let guard: Vec<String> =
+                gate.guard.iter().map(|(x, one)| format!("{}x{x}", if *one { "" } else { "NOT " })).collect();
+            let guard = if guard.is_empty() { String::new() } else { format!(" IF {}", guard.join(" AND ")) };
+            let _ = writeln!(text, "GATE g{i} : {} -> {}{guard}", names(&gate.before), names(&gate.after));
         }
-        let _ = write!(voting, "voting{voter} ");
-        net.transition(&format!("say_yes{voter}"), &format!("voting{voter}"), &format!("yes{voter}"));
-        net.transition(&format!("say_no{voter}"), &format!("voting{voter}"), &format!("no{voter}"));
+        text + "END\n"
     }
-    net.transition("start", "ready", &voting);
-    net
-}
 
-/// The flight control system AutoFlight in its simple form, with n units (Model Checking Contest): processes that take
-/// turns, and devices that change by themselves.
-pub(crate) fn auto_flight(n: u64) -> Net {
-    let mut net = Net::default();
-    let mut start = "free".to_owned();
-    for place in ["start", "free", "busy"] {
-        net.place(place, u64::from(place == "start"));
-    }
-    for unit in 1..=n {
-        start += &auto_flight_unit(&mut net, unit);
-    }
-    let all = |kind: &str| (1..=n).map(|unit| format!("{kind}{unit}")).collect::<Vec<_>>();
-    let moves =
-        |takes: &str, puts: &str| all("").iter().map(|u| (format!("{takes}{u}"), format!("{puts}{u}"))).collect();
-    let reads = || all("enabled").into_iter().map(|place| (place.clone(), place)).collect::<Vec<_>>();
-    let waits = |count: u64| (0..count).map(|_| (String::new(), String::new())).collect::<Vec<_>>();
-    let first: Vec<_> = moves("first_failed", "first_ok");
-    let second: Vec<_> = moves("second_failed", "second_ok");
-    start += &process(&mut net, "check", [first, reads(), waits(n), reads()].concat());
-    start += &process(&mut net, "test", [second, reads(), waits(2 * n), reads()].concat());
-    net.transition("begin", "start", &start);
-    net
-}
-
-/// A unit; its places that are marked after the beginning.
-fn auto_flight_unit(net: &mut Net, unit: u64) -> String {
-    for place in ["off", "on", "steady", "enabled"] {
-        net.place(&format!("{place}{unit}"), 0);
-    }
-    for device in ["first", "second"] {
-        for state in ["ok", "used", "failed"] {
-            net.place(&format!("{device}_{state}{unit}"), 0);
-        }
-        for copy in ["a", "b"] {
-            let name = format!("{device}{unit}{copy}");
-            net.transition(&format!("return_{name}"), &format!("{device}_used{unit}"), &format!("{device}_ok{unit}"));
-            net.transition(&format!("fail_{name}"), &format!("{device}_ok{unit}"), &format!("{device}_failed{unit}"));
-        }
-    }
-    for copy in ["a", "b"] {
-        net.transition(&format!("switch{unit}{copy}"), &format!("off{unit}"), &format!("on{unit}"));
-    }
-    let at = |place: &str| format!("{place}{unit}");
-    let steps = vec![
-        (at("steady"), at("steady")),
-        (at("on"), at("off")),
-        (at("first_ok"), at("first_used")),
-        (at("second_ok"), at("second_used")),
-    ];
-    let waiting = process(net, &format!("engage{unit}_"), steps);
-    ["off", "steady", "enabled", "first_ok", "second_ok"].iter().fold(waiting, |all, place| all + " " + &at(place))
-}
-
-/// A process that waits for its turn, takes and puts in each step, and hands the turn on. The place in which it waits.
-fn process(net: &mut Net, name: &str, steps: Vec<(String, String)>) -> String {
-    net.place(&format!("{name}wait"), 0);
-    net.place(&format!("{name}0"), 0);
-    net.transition(&format!("{name}begin"), &format!("{name}wait free"), &format!("{name}0 busy"));
-    let count = steps.len();
-    for (step, (takes, puts)) in steps.into_iter().enumerate() {
-        net.place(&format!("{name}{}", step + 1), 0);
-        net.transition(
-            &format!("{name}step{step}"),
-            &format!("{name}{step} {takes}"),
-            &format!("{name}{} {puts}", step + 1),
+    /// The same as the table of the peer.
+    fn peer(&self) -> String {
+        let mut text = format!(
+            "#define INPUTS {INPUTS}\n#define OUTPUTS {OUTPUTS}\n#define MOVING {MOVING}\n\
+             static const uint8_t peer_tokens[{}] = {{",
+            self.boxes.len()
         );
+        text.extend(self.boxes.iter().map(|(_, marked, _)| format!("{}, ", u8::from(*marked))));
+        text.push_str("};\n");
+        for (i, gate) in self.gates.iter().enumerate().filter(|(_, gate)| !gate.guard.is_empty()) {
+            let tests: Vec<String> =
+                gate.guard.iter().map(|(x, one)| format!("inputs[{x}] {} 0", if *one { "!=" } else { "==" })).collect();
+            let _ =
+                writeln!(text, "static int32_t guard{i}(const int32_t *inputs) {{ return {}; }}", tests.join(" && "));
+        }
+        text.push_str("static const struct net_gate peer_gates[] = {\n");
+        let three = |boxes: &[usize]| {
+            let place = |i: usize| boxes.get(i).map_or("-1".to_owned(), usize::to_string);
+            format!("{{{}, {}, {}}}", place(0), place(1), place(2))
+        };
+        for (i, gate) in self.gates.iter().enumerate() {
+            let guard = if gate.guard.is_empty() { "NULL".to_owned() } else { format!("guard{i}") };
+            let _ = writeln!(text, "    {{{guard}, {}, {}}},", three(&gate.before), three(&gate.after));
+        }
+        text.push_str("};\nstatic const struct net_level peer_levels[] = {\n");
+        let levels = self.boxes.iter().enumerate().filter_map(|(i, (_, _, output))| Some((i, (*output)?)));
+        let mut count = 0;
+        for (place, output) in levels {
+            let _ = writeln!(text, "    {{{output}, {place}}},");
+            count += 1;
+        }
+        let _ = writeln!(
+            text,
+            "}};\nstatic const struct net_table peer_table = {{peer_gates, peer_levels, {}, {}, {count}, {OUTPUTS}}};",
+            self.boxes.len(),
+            self.gates.len()
+        );
+        text
     }
-    net.transition(&format!("{name}end"), &format!("{name}{count} busy"), &format!("{name}wait free"));
-    format!(" {name}wait")
+}
+
+fn gate(first: usize, extra: usize, l: usize, s: usize) -> Gate {
+    let state = |s: usize| first + l * LOOP + s % LOOP;
+    let (mut before, mut after) = (vec![state(s)], vec![state(s + 1)]);
+    // Two pairs of loops share a key from their third state to their sixth.
+    if l < MOVING || l >= MOVING + 4 {
+        return Gate { before, after, guard: vec![(l % INPUTS, s % 2 == 0)] };
+    }
+    let key = extra + (l - MOVING) / 2;
+    if s == 2 {
+        before.push(key);
+    }
+    if s == 5 {
+        after.push(key);
+    }
+    Gate { before, after, guard: vec![(l % INPUTS, s % 2 == 0)] }
+}
+
+fn built(tools: &Tools, name: &str, copies: usize) -> Result<PathBuf, String> {
+    let folder = tools.folder(name)?;
+    let plant = Plant::new(copies);
+    if copies == 1 && (plant.boxes.len(), plant.gates.len()) != (BOXES, GATES) {
+        return Err(format!("the net has {} boxes and {} gates", plant.boxes.len(), plant.gates.len()));
+    }
+    write(&folder.join("plant.net"), &plant.text())?;
+    write(&folder.join("peer.h"), &plant.peer())?;
+    output(&mut tools.build(&folder.join("plant.net"), &folder.join("out"), &[]))?;
+    Ok(folder)
+}
+
+fn scans(tools: &Tools, table: &mut Table, folder: &Path) -> Result<(), String> {
+    let (bench, out) = (bench_folder(), folder.join("out"));
+    let program = folder.join("scan");
+    let mut command = compiler("gcc", &["-O2"], &out)?;
+    command.arg("-I").arg(&bench).arg("-I").arg(folder).arg("-o").arg(&program);
+    command.args(["c/nets.c", "c/compare.c", "hand/net_table.c"].map(|file| bench.join(file)));
+    output(
+        command.args(["plant.c", "plant_map.c"].map(|file| out.join(file))).args(runtime_sources(&out)?).arg("-lm"),
+    )?;
+    let times = Times::of(Command::new(program).arg(tools.rounds(2001).to_string()))?;
+    let fired = times.median("fired");
+    let size = format!("{BOXES} boxes, {GATES} gates");
+    table.add(Row::value(format!("{size}: an idle scan"), times.median("idle"), "ns").bar(Bar::AtMost(5.0)));
+    let peer = "peer: table player with guard functions";
+    let row = times.row(format!("{size}: an idle scan, {peer}"), "idle", "peer_idle");
+    table.add(row.bar(Bar::Ratio(1.0 / 20.0)));
+    table.add(times.row(format!("{size}: a scan with {fired:.1} firings, {peer}"), "busy", "peer_busy"));
+    let each = times.difference("busy", "idle") / fired;
+    table.add(Row::value(format!("{size}: a firing, over an idle scan"), each, "ns").bar(Bar::AtMost(2.0)));
+    Ok(())
+}
+
+/// Bytes of code and constants for a gate, on the host and on a Cortex-M4, in both forms.
+fn code(tools: &Tools, table: &mut Table, folder: &Path) -> Result<(), String> {
+    let source = folder.join("plant.net");
+    for form in ["fast", "table"] {
+        let out = folder.join(form);
+        output(&mut tools.build(&source, &out, &["--net-form", form]))?;
+        let object = out.join("host.o");
+        output(compiler("gcc", &["-O2", "-c"], &out)?.arg("-o").arg(&object).arg(out.join("plant.c")))?;
+        let host = m4::code(Command::new("size").arg("-A").arg(&object))?;
+        let row = Row::value(format!("code of a gate, host -O2, {form}"), host / GATES as f64, "B");
+        table.add(if form == "fast" { row.bar(Bar::AtMost(100.0)) } else { row });
+        let out = folder.join(format!("{form}-f32"));
+        output(&mut tools.build(&source, &out, &["--net-form", form, "--real", "f32"]))?;
+        let object = m4::object(&out, &out.join("plant.c"))?;
+        let small = m4::code(Command::new("arm-none-eabi-size").arg("-A").arg(&object))?;
+        table.add(Row::value(format!("code of a gate, Cortex-M4 -Os, {form}"), small / GATES as f64, "B"));
+    }
+    Ok(())
+}
+
+/// The C compiler's time on twice the net.
+fn growth(tools: &Tools, table: &mut Table) -> Result<(), String> {
+    let mut commands = Vec::new();
+    for copies in [1, 2, 4] {
+        let out = built(tools, &format!("nets/grown{copies}"), copies)?.join("out");
+        let mut command = compiler("gcc", &["-O2", "-c"], &out)?;
+        command.arg("-o").arg(out.join("plant.o")).arg(out.join("plant.c"));
+        commands.push(command);
+    }
+    let used = in_turn(tools.rounds(7), &mut commands)?;
+    for (copies, pair) in [2, 4].into_iter().zip(used.windows(2)) {
+        let what = format!("gcc -O2 on {copies} times the net, peer: half of it");
+        let row = Row::value(what, pair[1].seconds, "s");
+        table.add(row.peer(pair[0].seconds, pair[1].seconds / pair[0].seconds).bar(Bar::Ratio(2.2)));
+    }
+    Ok(())
 }

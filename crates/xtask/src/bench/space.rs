@@ -1,7 +1,7 @@
 //! Nets: reachable markings and deadlocks.
 
 use super::child::{Usage, usage};
-use super::nets::{self, Net};
+use super::literature::{self, Net};
 use super::table::{Bar, Row, Table};
 use super::tools::{Tools, text, write};
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ type Whole = (&'static str, Net, u64);
 
 pub(crate) fn measure(tools: &Tools, table: &mut Table) -> Result<(), String> {
     let whole: [Whole; 4] = [
-        ("Kanban-5", nets::kanban(5), 2_546_432),
-        ("FMS-5", nets::fms(5), 2_895_018),
-        ("HouseConstruction-5", nets::house_construction(5), 1_187_984),
-        ("SwimmingPool-2", nets::swimming_pool(2), 3_408_031),
+        ("Kanban-5", literature::kanban(5), 2_546_432),
+        ("FMS-5", literature::fms(5), 2_895_018),
+        ("HouseConstruction-5", literature::house_construction(5), 1_187_984),
+        ("SwimmingPool-2", literature::swimming_pool(2), 3_408_031),
     ];
     for (name, net, markings) in &whole {
         let file = written(tools, name, net)?;
@@ -24,11 +24,11 @@ pub(crate) fn measure(tools: &Tools, table: &mut Table) -> Result<(), String> {
     }
     for n in [10, 100, 1000] {
         let name = format!("Referendum-{n}");
-        deadlock(tools, table, &name, &written(tools, &name, &nets::referendum(n))?)?;
+        deadlock(tools, table, &name, &written(tools, &name, &literature::referendum(n))?)?;
     }
     for n in [1, 6, 12, 24] {
         let name = format!("AutoFlight-{n}a");
-        deadlock(tools, table, &name, &written(tools, &name, &nets::auto_flight(n))?)?;
+        deadlock(tools, table, &name, &written(tools, &name, &literature::auto_flight(n))?)?;
     }
     Ok(())
 }

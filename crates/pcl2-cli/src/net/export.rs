@@ -1,0 +1,58 @@
+//! `pcl2 net export`
+
+use super::{NetPath, load, refuse};
+use crate::outcome::Outcome;
+use crate::run::files::{self, Output};
+use clap::{Args, ValueEnum};
+use pcl2_net::export;
+use std::path::PathBuf;
+
+/// `pcl2 net export`
+#[derive(Args, Debug)]
+pub(crate) struct ExportArgs {
+    #[command(flatten)]
+    net: NetPath,
+    /// The format
+    #[arg(long, value_enum)]
+    to: Format,
+    /// The file (`-`: to standard output)
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
+}
+
+/// What other tools read.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    /// PNML, ISO/IEC 15909-2
+    Pnml,
+    /// The low-level nets of LoLA
+    Lola,
+    /// C for LTSmin's PINS interface
+    Ltsmin,
+}
+
+/// Writes a net for another tool.
+pub(crate) fn export(args: &ExportArgs) -> Outcome {
+    let net = match load(&args.net.path, &args.net.blocks) {
+        Ok(net) => net,
+        Err(outcome) => return outcome,
+    };
+    let text = match args.to {
+        Format::Pnml => export::pnml(&net),
+        Format::Lola => export::lola(&net),
+        Format::Ltsmin => export::ltsmin(&net),
+    };
+    match text {
+        Ok(text) => write(&args.output, &text),
+        Err(why) => refuse(&args.net.path, &why),
+    }
+}
+
+/// Writes a text to a file or to standard output.
+pub(super) fn write(path: &std::path::Path, text: &str) -> Outcome {
+    let written = Output::open(path).and_then(|mut output| {
+        files::write(path, &mut output, text.as_bytes())?;
+        output.keep()
+    });
+    written.map_or_else(|failure| failure.report(), |()| Outcome::Done)
+}

@@ -1,0 +1,312 @@
+//! Gates as code: each under its source line, tried only while its first box is ready.
+
+use super::statements;
+use super::{NetBody, fast};
+use crate::statics::Statics;
+use pcl2_lang::net::{Arc, BoxId, Gate, Kind, Rule, StatementId, Tested};
+use std::fmt::Write;
+
+/// The gates of one function.
+pub(super) const GATES: usize = 32;
+/// Indent of what a gate does.
+const INDENT: &str = "            ";
+
+/// Writes the functions that try gates, one for each word of the set of ready ones.
+pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
+    for (word, gates) in net.net.gates.chunks(GATES).enumerate() {
+        let tag = net.tag();
+        let _ = writeln!(
+            out,
+            "/* Tries those of gates {} to {} whose boxes are ready, in the order of a scan. */",
+            word * GATES + 1,
+            word * GATES + gates.len()
+        );
+        let _ = writeln!(out, "static void {tag}_gates_{}(struct {tag} *self, uint32_t ready)\n{{", word + 1);
+        out.push_str("    while (ready != 0) {\n        const int32_t gate = pcl2_net_lowest(ready);\n");
+        out.push_str("        ready &= ready - 1;\n        switch (gate) {\n");
+        for (i, gate) in gates.iter().enumerate() {
+            let _ = writeln!(out, "        case {i}: {{");
+            self::gate(out, statics, net, gate, word * GATES + i);
+            out.push_str("            break;\n        }\n");
+        }
+        out.push_str("        default:\n            break;\n        }\n    }\n}\n\n");
+    }
+}
+
+fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate: &Gate, index: usize) {
+    statements::comment(out, INDENT, net.body.cx.sources.text(gate.span));
+    let enabled = enabled(net, gate);
+    let sole = gate.rules.len() == 1;
+    if !sole && !enabled.is_empty() {
+        let _ = writeln!(out, "{INDENT}if (!({})) {{\n{INDENT}    break;\n{INDENT}}}", enabled.join(" && "));
+    }
+    for rule in &gate.rules {
+        if !sole {
+            statements::comment(out, INDENT, net.body.cx.sources.text(rule.span));
+        }
+        let mut tests = if sole { enabled.clone() } else { Vec::new() };
+        tests.extend(rule.condition.map(|condition| statements::condition(out, statics, net, condition, INDENT)));
+        let mut allowed = room(net, gate, rule);
+        for permit in &gate.permits {
+            allowed.push(statements::condition(out, statics, net, permit.condition, INDENT));
+        }
+        if sole {
+            tests.append(&mut allowed);
+        }
+        let fire = |out: &mut String, statics: &mut Statics, indent: &str| {
+            self::fire(out, statics, net, gate, rule, index, indent);
+        };
+        match (tests.is_empty(), allowed.is_empty()) {
+            (true, true) => fire(out, statics, INDENT),
+            (false, true) => guarded(out, &tests, |out| {
+                fire(out, statics, "                ");
+                if !sole {
+                    out.push_str("                break;\n");
+                }
+            }),
+            (true, false) => guarded(out, &allowed, |out| fire(out, statics, "                ")),
+            (false, false) => guarded(out, &tests, |out| {
+                let _ = writeln!(out, "                if ({}) {{", allowed.join(" && "));
+                fire(out, statics, "                    ");
+                out.push_str("                }\n");
+                out.push_str("                break;\n");
+            }),
+        }
+        if !sole && rule.condition.is_none() {
+            break;
+        }
+    }
+}
+
+fn guarded(out: &mut String, tests: &[String], body: impl FnOnce(&mut String)) {
+    let _ = writeln!(out, "{INDENT}if ({}) {{", tests.join(&format!("\n{INDENT}    && ")));
+    body(out);
+    let _ = writeln!(out, "{INDENT}}}");
+}
+
+/// What must hold of tokens.
+fn enabled(net: &NetBody<'_, '_, '_>, gate: &Gate) -> Vec<String> {
+    let mut tests = Vec::new();
+    for (i, arc) in gate.before.iter().enumerate() {
+        before(&mut tests, net, arc, i == 0);
+    }
+    for read in &gate.reads {
+        tests.extend(tested(net, read, true));
+    }
+    for inhibit in &gate.inhibits {
+        tests.extend(tested(net, inhibit, false).map(|test| format!("!({test})")));
+    }
+    tests
+}
+
+/// The tokens of a box before a gate: they are there, nobody has taken them, and the box is excited.
+fn before(tests: &mut Vec<String>, net: &NetBody<'_, '_, '_>, arc: &Arc, first: bool) {
+    let (name, place) = (net.place(arc.place), net.net.place(arc.place));
+    let shared = net.layout.facts.takers[arc.place.0 as usize] > 1 || fast::emptied(net, arc.place);
+    let excited = excited(net, "self->", "self->net.", arc.place);
+    match place.kind {
+        Kind::Count => {
+            tests.extend(Some(excited).filter(|_| !first));
+            tests.extend(shared.then(|| format!("self->net.taken[{name}] == 0")));
+        }
+        Kind::State | Kind::Capacity | Kind::Generation(_) => {
+            let known = first && arc.weight == 1;
+            let left = if shared {
+                format!("self->box[{name}] - self->net.taken[{name}]")
+            } else {
+                format!("self->box[{name}]")
+            };
+            tests.extend((!known || shared).then(|| format!("{left} >= {}", weight(arc.weight))));
+        }
+        Kind::Time(_) | Kind::Action(_) | Kind::Process(_) | Kind::Macro(_) => {
+            let asks = !first || matches!(place.kind, Kind::Macro(_));
+            tests.extend(Some(excited).filter(|_| asks));
+            tests.extend(shared.then(|| format!("self->net.taken[{name}] == 0")));
+            tests.extend((arc.weight > 1).then(|| "0".to_owned()));
+        }
+    }
+}
+
+fn weight(weight: u32) -> i32 {
+    i32::try_from(weight).unwrap_or(i32::MAX)
+}
+
+/// Whether a gate may take from a box. `root` and `kept` stand before its members.
+fn excited(net: &NetBody<'_, '_, '_>, root: &str, kept: &str, id: BoxId) -> String {
+    let (name, place) = (net.place(id), net.net.place(id));
+    match place.kind {
+        Kind::State | Kind::Capacity | Kind::Generation(_) => format!("{root}box[{name}] > 0"),
+        Kind::Count => format!("{root}box[{name}] >= {}", weight(place.capacity.unwrap_or(1))),
+        Kind::Time(_) | Kind::Action(_) => {
+            format!("{root}box[{name}] > 0 && ({kept}phase[{name}] & 3) == PCL2_NET_DONE")
+        }
+        Kind::Process(_) => format!("{root}box[{name}] > 0 && ({kept}phase[{name}] & 3) == PCL2_NET_READY"),
+        Kind::Macro(part) => {
+            let exit = fast::end_of(net, part, |inner| inner.exit);
+            format!("{root}box[{name}] > 0 && {root}{}.box[{exit}] > 0", fast::member(net, part.0 as usize))
+        }
+    }
+}
+
+/// A box that is read, or that inhibits.
+fn tested(net: &NetBody<'_, '_, '_>, tested: &Tested, only_excited: bool) -> Option<String> {
+    let Some(part) = tested.part else {
+        return Some(test(net, "self->", "self->net.", tested, only_excited));
+    };
+    let inner = fast::inner(net, part.0 as usize)?;
+    let inside = NetBody::of(&inner)?;
+    let root = format!("self->{}.", fast::member(net, part.0 as usize));
+    let kept = format!("{root}net.");
+    Some(test(&inside, &root, &kept, tested, only_excited))
+}
+
+fn test(net: &NetBody<'_, '_, '_>, root: &str, kept: &str, tested: &Tested, only_excited: bool) -> String {
+    let excited = excited(net, root, kept, tested.place);
+    let enough = format!("{root}box[{}] >= {}", net.place(tested.place), weight(tested.weight));
+    let plain = matches!(net.net.place(tested.place).kind, Kind::State | Kind::Capacity | Kind::Generation(_));
+    if !only_excited || plain { enough } else { format!("{enough} && {excited}") }
+}
+
+fn weight_in(arcs: &[Arc], place: BoxId) -> i32 {
+    arcs.iter().find(|arc| arc.place == place).map_or(0, |arc| weight(arc.weight))
+}
+
+/// What must hold of room where a rule puts tokens.
+fn room(net: &NetBody<'_, '_, '_>, gate: &Gate, rule: &Rule) -> Vec<String> {
+    let mut tests: Vec<String> = Vec::new();
+    for index in rule.moves.iter().flat_map(|tokens| &tokens.to) {
+        let arc = &gate.after[*index as usize];
+        for test in box_room(net, arc.place, weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place))) {
+            if !tests.contains(&test) {
+                tests.push(test);
+            }
+        }
+    }
+    tests
+}
+
+/// What must hold so that a box can take so many tokens more.
+pub(super) fn box_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<String> {
+    let (name, place) = (net.place(id), net.net.place(id));
+    let Some(capacity) = place.capacity.filter(|_| more > 0) else {
+        return Vec::new();
+    };
+    let used = if net.layout.keeps("used") { "used" } else { "filled" };
+    let alone = net.layout.facts.putters[id.0 as usize] <= 1 && net.net.entry != Some(id);
+    let there =
+        if alone { format!("self->box[{name}]") } else { format!("self->box[{name}] + self->net.{used}[{name}]") };
+    let most = i64::from(weight(capacity)) - i64::from(more);
+    let mut tests = vec![match most {
+        0 => format!("{there} == 0"),
+        most if most < 0 => "0".to_owned(),
+        most => format!("{there} <= {most}"),
+    }];
+    if let Kind::Macro(part) = place.kind {
+        let inner = fast::part_tag(net, part.0 as usize);
+        tests.push(format!("{inner}_vacant(&self->{})", fast::member(net, part.0 as usize)));
+    }
+    tests
+}
+
+fn fire(
+    out: &mut String,
+    statics: &mut Statics,
+    net: &NetBody<'_, '_, '_>,
+    gate: &Gate,
+    rule: &Rule,
+    index: usize,
+    indent: &str,
+) {
+    for word in &rule.clears {
+        let _ = writeln!(out, "{indent}{} = 0;", net.word(word.0 as usize, net.scope()));
+    }
+    for arc in &gate.before {
+        take(out, net, arc, indent);
+    }
+    let number = index.to_string();
+    for statement in &rule.actions {
+        run(out, statics, net, *statement, &number, indent);
+    }
+    for index in rule.moves.iter().flat_map(|tokens| &tokens.to) {
+        let arc = &gate.after[*index as usize];
+        let room = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place)).max(0);
+        put(out, net, arc, room, &number, indent);
+    }
+    let _ = writeln!(out, "{indent}self->net.restless = 1;");
+}
+
+fn take(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {
+    let (tag, name, place) = (net.tag(), net.place(arc.place), net.net.place(arc.place));
+    let tokens = match place.kind {
+        Kind::Count => format!("self->box[{name}]"),
+        Kind::State | Kind::Capacity | Kind::Generation(_) => weight(arc.weight).to_string(),
+        Kind::Time(_) | Kind::Action(_) | Kind::Process(_) | Kind::Macro(_) => "1".to_owned(),
+    };
+    let _ = writeln!(out, "{indent}{tag}_take(self, {name}, {tokens});");
+    if let Kind::Macro(part) = place.kind {
+        let part = part.0 as usize;
+        let _ = writeln!(out, "{indent}{}_leave(&self->{});", fast::part_tag(net, part), fast::member(net, part));
+    }
+}
+
+/// Writes how tokens are put into a box, `room` of them into room that was free.
+pub(super) fn put(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, room: i32, gate: &str, indent: &str) {
+    let (tag, name) = (net.tag(), net.place(arc.place));
+    let _ = write!(out, "{indent}{tag}_put(self, {name}, {}", weight(arc.weight));
+    if net.layout.keeps("used") {
+        let _ = write!(out, ", {room}");
+    }
+    if net.layout.keeps("by") {
+        let _ = write!(out, ", {gate}");
+    }
+    out.push_str(");\n");
+    if let Kind::Macro(part) = net.net.place(arc.place).kind {
+        let part = part.0 as usize;
+        let _ = writeln!(out, "{indent}{}_enter(&self->{});", fast::part_tag(net, part), fast::member(net, part));
+    }
+}
+
+/// Writes a statement that is run for a gate: of two that write one output, that of the higher priority counts.
+pub(super) fn run(
+    out: &mut String,
+    statics: &mut Statics,
+    net: &NetBody<'_, '_, '_>,
+    statement: StatementId,
+    gate: &str,
+    indent: &str,
+) {
+    let facts = &net.layout.facts;
+    if !facts.tracks_statement(net.net, statement) {
+        statements::action(out, statics, net, statement, indent);
+        return;
+    }
+    let touched = &net.net.touched[statement.0 as usize];
+    let inner = format!("{indent}    ");
+    let _ = writeln!(out, "{indent}{{");
+    let tracked = |words: &[pcl2_lang::net::WordId]| -> Vec<usize> {
+        words.iter().map(|word| word.0 as usize).filter(|word| facts.tracked[*word]).collect()
+    };
+    let writes = tracked(&touched.writes);
+    for (i, word) in writes.iter().enumerate() {
+        let ty = pcl2_lang::kernel::c_scalar(net.net.words[*word].scalar);
+        let _ = writeln!(out, "{inner}const {ty} before{} = {};", i + 1, net.word(*word, net.scope()));
+    }
+    statements::action(out, statics, net, statement, &inner);
+    for (i, word) in writes.iter().enumerate() {
+        wrote(out, net, *word, gate, &format!("before{}", i + 1), &inner);
+    }
+    for word in tracked(&touched.counts) {
+        let _ = writeln!(out, "{inner}pcl2_net_counted(&self->net.wrote[{word}]);");
+    }
+    let _ = writeln!(out, "{indent}}}");
+}
+
+/// Writes what follows a write to a tracked output.
+pub(super) fn wrote(out: &mut String, net: &NetBody<'_, '_, '_>, word: usize, gate: &str, before: &str, indent: &str) {
+    let function = match net.net.words[word].scalar {
+        pcl2_lang::types::Scalar::Int => "pcl2_net_wrote_int",
+        pcl2_lang::types::Scalar::Real => "pcl2_net_wrote_real",
+    };
+    let place = net.word(word, net.scope());
+    let _ = writeln!(out, "{indent}{function}({}_writes(self, {word}), {gate}, &{place}, {before});", net.tag());
+}

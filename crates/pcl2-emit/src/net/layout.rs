@@ -1,0 +1,236 @@
+//! What an instance of a net keeps beside its signals, and how its boxes are called in C.
+
+use super::facts::{self, NetFacts};
+use crate::NetForm;
+use crate::facts::Scratch;
+use crate::layout::UnitLayout;
+use crate::shape::{Extent, Field, fields_extent};
+use pcl2_lang::net::table::{self, Table};
+use pcl2_lang::net::{Kind, Net, PartId};
+use pcl2_lang::program::{Program, Role, Unit, UnitId};
+use pcl2_lang::types::Width;
+
+/// How long a net with modes was stopped.
+pub(crate) const STOOD: &str = "stood";
+
+/// What a net with modes keeps in ints.
+pub(crate) const MODE_COUNTERS: [&str; 3] = ["halted", "forced", "refused"];
+
+/// The layout of a net.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NetLayout {
+    /// The first signal that the net keeps: words, then the tokens of boxes, then attributes of tokens in hand.
+    pub(crate) held: usize,
+    /// By box: the enumerator that stands for it.
+    pub(crate) boxes: Vec<String>,
+    /// The members of the struct `net` inside the instance.
+    pub(crate) fields: Vec<Field>,
+    /// What the player walks, and tokens with attributes at the start.
+    pub(crate) table: Table,
+    /// How many nets it is made of, itself included.
+    pub(crate) nets: usize,
+    /// It, or a net inside, depends on time.
+    pub(crate) timed: bool,
+    /// Scratch of its statements.
+    pub(crate) scratch: Scratch,
+    /// It stands outside of other nets too.
+    pub(crate) called: bool,
+    /// How it becomes C.
+    pub(crate) form: NetForm,
+    /// Of the fast form: what its code can leave out.
+    pub(crate) facts: NetFacts,
+}
+
+impl NetLayout {
+    /// Whether an instance keeps a member.
+    pub(crate) fn keeps(&self, name: &str) -> bool {
+        self.fields.iter().any(|field| field.name == name)
+    }
+}
+
+/// The net of a unit.
+pub(crate) fn net_of<'a>(program: &'a Program, unit: &Unit) -> Option<&'a Net> {
+    let (decl, _) = unit.composite.as_ref()?;
+    program.decl(*decl).net.as_deref()
+}
+
+/// The unit of a net inside.
+pub(crate) fn part_unit(unit: &Unit, net: &Net, part: PartId) -> Option<UnitId> {
+    let statement = net.parts.get(part.0 as usize)?.statement;
+    unit.blocks.get(statement.0 as usize)?.unit
+}
+
+/// Lays a net out; those inside it are known already.
+pub(crate) fn layout(
+    program: &Program,
+    unit: &Unit,
+    net: &Net,
+    known: &[UnitLayout<'_>],
+    scratch: Scratch,
+    boxes: Vec<String>,
+) -> NetLayout {
+    let inside = |part: PartId| {
+        let inner = part_unit(unit, net, part)?;
+        let layout = known[inner.0 as usize].net.as_ref()?;
+        Some((net_of(program, program.unit(inner))?, layout))
+    };
+    let table = table::table(net, &|part| inside(part).map(|(net, layout)| (net, layout.nets)));
+    let parts: Vec<&NetLayout> =
+        (0..net.parts.len() as u32).filter_map(|part| inside(PartId(part))).map(|(_, layout)| layout).collect();
+    let held = unit.signals.iter().position(|signal| signal.role == Role::Held).unwrap_or(unit.signals.len());
+    let fast = facts::is_plain(net) && parts.iter().all(|part| part.form == NetForm::Fast);
+    NetLayout {
+        held,
+        boxes,
+        nets: 1 + parts.iter().map(|part| part.nets).sum::<usize>(),
+        timed: net.has_time() || parts.iter().any(|part| part.timed),
+        table,
+        scratch,
+        form: if fast { NetForm::Fast } else { NetForm::Table },
+        ..NetLayout::default()
+    }
+}
+
+/// Settles the form of each net, that of a net inside going by the one around it, and what an instance keeps.
+pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) {
+    let called = called(program, units);
+    let part = forms(program, units, form);
+    for index in 1..units.len() {
+        let unit = &program.units[index];
+        let (Some(net), Some(layout)) = (net_of(program, unit), units[index].net.as_mut()) else {
+            continue;
+        };
+        layout.called = called[index];
+        layout.facts = facts::of(net, unit, layout.held, part[index]);
+        layout.fields = match layout.form {
+            NetForm::Table => table_fields(net, layout),
+            NetForm::Fast => fast_fields(net, layout),
+        };
+    }
+}
+
+/// Gives a net and those inside it one form; tells by unit whether it stands inside another net.
+fn forms(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) -> Vec<bool> {
+    let mut part = vec![false; units.len()];
+    let mut pairs = Vec::new();
+    for (outer, unit) in program.units.iter().enumerate() {
+        let Some(net) = net_of(program, unit).filter(|_| units[outer].used) else {
+            continue;
+        };
+        for inner in (0..net.parts.len() as u32).filter_map(|i| part_unit(unit, net, PartId(i))) {
+            part[inner.0 as usize] = true;
+            pairs.push((outer, inner.0 as usize));
+        }
+    }
+    let is_table = |units: &[UnitLayout<'_>], index: usize| {
+        form == NetForm::Table || units[index].net.as_ref().is_some_and(|net| net.form == NetForm::Table)
+    };
+    let mut table: Vec<bool> = (0..units.len()).map(|index| is_table(units, index)).collect();
+    while let Some((a, b)) = pairs.iter().copied().find(|(a, b)| table[*a] != table[*b]) {
+        (table[a], table[b]) = (true, true);
+    }
+    for (unit, _) in units.iter_mut().zip(table).filter(|(_, table)| *table) {
+        if let Some(net) = &mut unit.net {
+            net.form = NetForm::Table;
+        }
+    }
+    part
+}
+
+/// By unit: whether a block outside of nets stands for it.
+fn called(program: &Program, units: &[UnitLayout<'_>]) -> Vec<bool> {
+    let mut called = vec![false; units.len()];
+    for (unit, _) in program.units.iter().zip(units).filter(|(_, layout)| layout.used) {
+        if net_of(program, unit).is_none() {
+            unit.blocks.iter().filter_map(|block| block.unit).for_each(|inner| called[inner.0 as usize] = true);
+        }
+    }
+    called
+}
+
+#[derive(Default)]
+struct Fields(Vec<Field>);
+
+impl Fields {
+    fn add(&mut self, name: &str, element: &'static str, count: Option<usize>) {
+        if count != Some(0) {
+            self.0.push(Field { name: name.to_owned(), element, count });
+        }
+    }
+
+    fn add_if(&mut self, wanted: bool, name: &str, element: &'static str, count: Option<usize>) {
+        if wanted {
+            self.add(name, element, count);
+        }
+    }
+
+    fn scratch(&mut self, layout: &NetLayout) {
+        self.add("work", "pcl2_real", Some(layout.scratch.real));
+        self.add("iwork", "int32_t", Some(layout.scratch.int));
+        self.add("twork", "int64_t", Some(layout.scratch.time));
+    }
+}
+
+fn table_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
+    let (boxes, words, actives) = (net.boxes.len(), net.words.len(), net.actives.len());
+    let mut fields = Fields::default();
+    fields.add("now", "int64_t", None);
+    fields.add_if(layout.timed, "period", "int64_t", None);
+    fields.add_if(net.operation.is_some(), STOOD, "int64_t", None);
+    fields.add("since", "int64_t", Some(boxes));
+    fields.add("active_since", "int64_t", Some(actives));
+    fields.add("reals", "pcl2_real", Some(layout.table.reals.len()));
+    fields.add("ints", "int32_t", Some(layout.table.ints.len()));
+    for name in ["taken", "filled", "used", "phase", "by", "hold"] {
+        fields.add(name, "int32_t", Some(boxes));
+    }
+    fields.add("wrote", "int32_t", Some(words));
+    fields.add("active", "int32_t", Some(actives));
+    fields.add("lost", "int32_t", None);
+    fields.add("conflicts", "int32_t", None);
+    for name in MODE_COUNTERS {
+        fields.add_if(net.operation.is_some(), name, "int32_t", None);
+    }
+    fields.scratch(layout);
+    fields.0
+}
+
+fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
+    let (boxes, facts) = (net.boxes.len(), &layout.facts);
+    let any = |test: &dyn Fn(&Kind) -> bool| net.boxes.iter().any(|place| test(&place.kind));
+    let acts = any(&|kind| matches!(kind, Kind::Action(_) | Kind::Process(_)));
+    let times = any(&|kind| matches!(kind, Kind::Time(_) | Kind::Process(_)));
+    let generates = net.boxes.iter().any(facts::generates);
+    let waits = net.boxes.iter().any(facts::waits) || generates;
+    let sets = |count: usize| Some(count.div_ceil(32));
+    let mut fields = Fields::default();
+    fields.add_if(layout.timed, "now", "int64_t", None);
+    fields.add_if(layout.timed, "period", "int64_t", None);
+    fields.add_if(times, "since", "int64_t", Some(boxes));
+    fields.add("active_since", "int64_t", Some(net.actives.len()));
+    fields.add("active", "int32_t", Some(net.actives.len()));
+    fields.add("taken", "int32_t", Some(boxes));
+    fields.add("filled", "int32_t", Some(boxes));
+    fields.add_if(facts.loops, "used", "int32_t", Some(boxes));
+    fields.add_if(waits, "phase", "int32_t", Some(boxes));
+    fields.add_if(acts && facts.tracks(), "by", "int32_t", Some(boxes));
+    fields.add_if(facts.tracks(), "wrote", "int32_t", Some(net.words.len()));
+    fields.add_if(facts.tracks(), "conflicts", "int32_t", None);
+    fields.add_if(generates, "lost", "int32_t", None);
+    fields.add("ready", "uint32_t", sets(net.gates.len()));
+    fields.add("touched", "uint32_t", sets(boxes));
+    fields.add_if(waits, "waiting", "uint32_t", sets(boxes));
+    fields.add_if(!facts.levels.is_empty(), "shown", "uint32_t", sets(boxes));
+    fields.add("drives", "int32_t", Some(facts.levels.len()));
+    fields.add_if(waits, "waits", "int32_t", None);
+    fields.add("restless", "int32_t", None);
+    fields.add("go", "int32_t", None);
+    fields.add_if(!net.parts.is_empty(), "inside", "int32_t", None);
+    fields.scratch(layout);
+    fields.0
+}
+
+/// Adds what the struct `net` takes.
+pub(crate) fn extent(extent: &mut Extent, layout: &NetLayout, width: Width) {
+    fields_extent(extent, &layout.fields, width);
+}

@@ -1,0 +1,7 @@
+/* The battery's charge behind zone 12, in percent. */
+#include "pcl2_power_12.h"
+
+PCL2_KERNEL void pcl2_power_12(struct pcl2_power_12 *self, pcl2_real power, int32_t loaded)
+{
+    self->left = power - PCL2_R(0.54) - PCL2_R(0.2)*(pcl2_real)loaded;
+}

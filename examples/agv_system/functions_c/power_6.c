@@ -1,0 +1,7 @@
+/* The battery's charge behind zone 6, in percent. */
+#include "pcl2_power_6.h"
+
+PCL2_KERNEL void pcl2_power_6(struct pcl2_power_6 *self, pcl2_real power, int32_t loaded)
+{
+    self->left = power - PCL2_R(0.42) - PCL2_R(0.2)*(pcl2_real)loaded;
+}

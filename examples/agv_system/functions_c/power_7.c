@@ -1,0 +1,7 @@
+/* The battery's charge behind zone 7, in percent. */
+#include "pcl2_power_7.h"
+
+PCL2_KERNEL void pcl2_power_7(struct pcl2_power_7 *self, pcl2_real power, int32_t loaded)
+{
+    self->left = power - PCL2_R(0.44) - PCL2_R(0.2)*(pcl2_real)loaded;
+}

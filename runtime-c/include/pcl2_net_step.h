@@ -1,0 +1,120 @@
+/* What the code of a net calls: sets of boxes and gates, and writes to outputs. */
+#ifndef PCL2_NET_STEP_H
+#define PCL2_NET_STEP_H
+
+#include "pcl2.h"
+
+/* Faults of a net, the first of a scan. */
+#define PCL2_NET_LOST 1     /* a token was to be made while one was waiting for room: it is lost */
+#define PCL2_NET_CONFLICT 2 /* two different values were written in one scan: the gate of higher priority wins */
+#define PCL2_NET_TIMEOUT 3  /* a process box was not complete within its supervision time */
+#define PCL2_NET_FORCED 4   /* an operator forced a gate or a token */
+#define PCL2_NET_REFUSED 5  /* a command of an operator was refused */
+
+/* What a box has done since its token came. Of a generating box: bit 0 its condition, bit 1 an edge that waits. */
+#define PCL2_NET_NEW 0
+#define PCL2_NET_DONE 1 /* of a time or an action box: excited */
+#define PCL2_NET_RUNNING 1
+#define PCL2_NET_READY 2
+
+/* A time in whole seconds as nanoseconds; 0 for a negative one. */
+static inline int64_t pcl2_net_seconds(int32_t seconds)
+{
+    return seconds > 0 ? seconds * INT64_C(1000000000) : 0;
+}
+
+/* The place of the lowest bit of a set that is not empty. */
+static inline int32_t pcl2_net_lowest(uint32_t set)
+{
+#if defined(__GNUC__) && !defined(__TINYC__)
+    return __builtin_ctz(set);
+#else
+    static const int8_t places[32] = {0,  1,  28, 2,  29, 14, 24, 3, 30, 22, 20, 15, 25, 17, 4,  8,
+                                      31, 27, 13, 23, 21, 19, 16, 7, 26, 12, 18, 6,  11, 5,  10, 9};
+    return places[((set & (0 - set)) * UINT32_C(0x077CB531)) >> 27];
+#endif
+}
+
+static inline void pcl2_net_add(uint32_t *sets, int32_t member)
+{
+    sets[member >> 5] |= UINT32_C(1) << (member & 31);
+}
+
+static inline void pcl2_net_remove(uint32_t *sets, int32_t member)
+{
+    sets[member >> 5] &= ~(UINT32_C(1) << (member & 31));
+}
+
+static inline int32_t pcl2_net_in(const uint32_t *sets, int32_t member)
+{
+    return (int32_t)(sets[member >> 5] >> (member & 31) & 1);
+}
+
+/* Counts up; stops at 2^31 - 1. */
+static inline void pcl2_net_count(int32_t *counter)
+{
+    if (*counter != INT32_MAX) {
+        ++*counter;
+    }
+}
+
+/* A fault: the first of a scan stays. */
+static inline void pcl2_net_fault(int32_t *status, int32_t fault)
+{
+    if (*status == 0) {
+        *status = fault;
+    }
+}
+
+/* Whether two reals differ in a bit. */
+static inline int32_t pcl2_net_differ(pcl2_real a, pcl2_real b)
+{
+    return memcmp(&a, &b, sizeof a) != 0;
+}
+
+/* Who wrote outputs of a net in a scan: 0 nobody, a gate from 1, -1 somebody who counted on. */
+struct pcl2_net_writes {
+    int32_t *wrote;
+    int32_t *status;
+    int32_t *conflicts;
+};
+
+/* A gate wrote an output. Returns whether the value before stays: of two different ones that of the gate with the
+ * higher priority, which is the lower number. */
+static inline int32_t pcl2_net_yields(struct pcl2_net_writes *writes, int32_t gate, int32_t differs)
+{
+    int32_t yields = 0;
+    if (*writes->wrote > 0 && differs) {
+        pcl2_net_fault(writes->status, PCL2_NET_CONFLICT);
+        pcl2_net_count(writes->conflicts);
+        yields = gate + 1 >= *writes->wrote;
+    }
+    if (!yields && (*writes->wrote <= 0 || gate + 1 < *writes->wrote)) {
+        *writes->wrote = gate + 1;
+    }
+    return yields;
+}
+
+static inline void pcl2_net_wrote_int(struct pcl2_net_writes writes, int32_t gate, int32_t *output, int32_t before)
+{
+    if (pcl2_net_yields(&writes, gate, *output != before)) {
+        *output = before;
+    }
+}
+
+static inline void pcl2_net_wrote_real(struct pcl2_net_writes writes, int32_t gate, pcl2_real *output, pcl2_real before)
+{
+    if (pcl2_net_yields(&writes, gate, pcl2_net_differ(*output, before))) {
+        *output = before;
+    }
+}
+
+/* An output was counted on: that is in no conflict. */
+static inline void pcl2_net_counted(int32_t *wrote)
+{
+    if (*wrote == 0) {
+        *wrote = -1;
+    }
+}
+
+#endif

@@ -1,0 +1,78 @@
+//! Random nets: the embedded engine and every form of the C give the same trace.
+//!
+//! `PCL2_RANDOM_NETS` is how many nets are compared; `cargo xtask nets` sets it for the long form.
+
+use pcl2_tests::random_nets::{Dice, INNER, configuration, net, stimulus};
+use pcl2_tests::{pcl2, run};
+use std::fs;
+use std::path::Path;
+
+/// Nets of one program.
+const BATCH: usize = 50;
+const SCANS: u64 = 1000;
+
+fn batch(folder: &Path, seed: u64) {
+    let mut dice = Dice::new(seed);
+    for (name, text) in INNER {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    for i in 0..BATCH {
+        // Tokens with attributes make a net a table, and with it the nets that it shares with others.
+        fs::write(folder.join(format!("r{i}.net")), net(&mut dice, &format!("r{i}"), seed % 2 == 1)).unwrap();
+    }
+    fs::write(folder.join("main.cfg"), configuration(BATCH)).unwrap();
+    fs::write(folder.join("stimulus.csv"), stimulus(&mut dice, SCANS)).unwrap();
+}
+
+fn traced(folder: &Path, compiler: &str, more: &[&str]) -> String {
+    let mut command = pcl2();
+    command.arg("run").arg(folder.join("main.cfg")).args(["--period", "0.25", "--trace", "-"]);
+    command.arg("--stimulus").arg(folder.join("stimulus.csv")).args(["--steps", &SCANS.to_string()]);
+    let output = run(command.env("CC", compiler).args(more));
+    assert!(output.status.success(), "{more:?}: {}", String::from_utf8_lossy(&output.stderr));
+    // The faults of the health record stand behind the trace.
+    String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
+}
+
+/// The first place where two traces differ: scan, column, values; and the net.
+fn difference(folder: &Path, a: &str, b: &str) -> Option<String> {
+    let names: Vec<&str> = a.lines().next()?.split(',').collect();
+    for (scan, (x, y)) in a.lines().zip(b.lines()).skip(1).enumerate() {
+        let row = x.split(',').zip(y.split(','));
+        if let Some((i, (x, y))) = row.enumerate().find(|(_, (x, y))| x != y) {
+            let net = names[i].split('.').next()?.strip_prefix('N')?;
+            let text = fs::read_to_string(folder.join(format!("r{net}.net"))).unwrap_or_default();
+            return Some(format!("{} in scan {scan}: {x} and {y}\n{text}", names[i]));
+        }
+    }
+    (a != b).then(|| "lengths".to_owned())
+}
+
+fn compare(seed: u64, compiler: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    batch(folder.path(), seed);
+    let embedded = traced(folder.path(), compiler, &[]);
+    for form in ["fast", "table"] {
+        let compiled = traced(folder.path(), compiler, &["--engine", "cc", "--net-form", form]);
+        let found = difference(folder.path(), &embedded, &compiled);
+        assert!(found.is_none(), "seed {seed}, {form}: {}", found.unwrap_or_default());
+    }
+}
+
+fn wanted() -> u64 {
+    std::env::var("PCL2_RANDOM_NETS").ok().and_then(|text| text.parse().ok()).unwrap_or(2000)
+}
+
+#[test]
+fn random_nets_are_the_same_in_every_form() {
+    for seed in 0..wanted().div_ceil(BATCH as u64) {
+        compare(seed, "tcc");
+    }
+}
+
+#[test]
+fn random_nets_are_the_same_under_optimisation() {
+    for seed in 1000..1002 {
+        compare(seed, "gcc");
+    }
+}
