@@ -17,10 +17,15 @@ const SETS_WORK: usize = 4_000_000;
 /// The most pairs of transitions whose conflicts are looked at closely.
 const MOST_PAIRS: usize = 1_000_000;
 
-/// The most markings, and nodes of a coverability tree, of a net that is not known to be bounded.
+/// The most markings of a net that is unbounded, and the most nodes of its coverability tree.
 const MOST_UNBOUNDED: usize = 1_000_000;
 
-/// The most markings that a search for dead ones alone may find.
+/// Nodes of a first coverability tree, and markings of a net of which it does not say whether it is bounded.
+const FEW_NODES: usize = 2000;
+const MOST_UNDECIDED: usize = 4_000_000;
+
+/// The most markings that a search for dead ones alone may find: before all are looked at, and if that was too many.
+const FEW_REDUCED: usize = 10_000;
 const MOST_REDUCED: usize = 1_000_000;
 
 /// What is known of a net. `None`: not known.
@@ -62,9 +67,12 @@ pub fn analyze(net: &PtNet, semantics: Semantics, limit: Limit, progress: &mut d
     let size = net.places.len() + net.transitions.len() + 1;
     let siphons = siphons::siphons_that_can_empty(net, MOST_SETS.min(SETS_WORK / size));
     let explorer = Explorer::new(net);
-    let cover = if bounds.iter().all(Option::is_some) { None } else { covered(net, semantics, limit) };
-    let dead = deadlock(net, &explorer, semantics, siphons.as_deref(), limit);
-    let space = explorer.explore(semantics, held(limit, cover.as_ref(), &bounds), progress);
+    let mut dead = deadlock(net, &explorer, semantics, siphons.as_deref());
+    let covered = bounds.iter().all(Option::is_some);
+    let (space, cover) = explore(net, &explorer, semantics, limit, covered, progress);
+    if dead == Deadlock::Unknown && !space.complete && semantics == Semantics::Interleaving {
+        dead = explorer.deadlock(limit.markings.min(MOST_REDUCED));
+    }
     let bounded = bounded(&space, cover.as_ref(), &bounds);
     let path = space.path.clone().or_else(|| alone(&dead));
     // What a dead marking says holds although not all markings are known.
@@ -89,10 +97,36 @@ pub fn analyze(net: &PtNet, semantics: Semantics, limit: Limit, progress: &mut d
     }
 }
 
-/// The coverability tree of a net that its invariants do not bound. Scans reach no more than single transitions do if
-/// nothing is only read.
-fn covered(net: &PtNet, semantics: Semantics, limit: Limit) -> Option<Cover> {
-    let nodes = at_most(limit, MOST_UNBOUNDED);
+/// Explores the reachable markings, not without end if they may have none.
+fn explore(
+    net: &PtNet,
+    explorer: &Explorer,
+    semantics: Semantics,
+    limit: Limit,
+    is_bounded: bool,
+    progress: &mut dyn FnMut(u64),
+) -> (Space, Option<Cover>) {
+    if is_bounded {
+        return (explorer.explore(semantics, limit, progress), None);
+    }
+    let tree = |nodes: usize| cover(net, semantics, limit.markings.min(nodes));
+    let mut known = tree(FEW_NODES);
+    if known.as_ref().is_none_or(|cover| !cover.complete && cover.unbounded.is_empty()) {
+        let space = explorer.explore(semantics, limit.at_most(MOST_UNDECIDED), progress);
+        if space.complete {
+            return (space, known);
+        }
+    }
+    if known.as_ref().is_none_or(|cover| !cover.complete) {
+        known = tree(MOST_UNBOUNDED);
+    }
+    let is_unbounded = known.as_ref().is_some_and(|cover| !cover.unbounded.is_empty());
+    let limit = if is_unbounded { limit.at_most(MOST_UNBOUNDED) } else { limit };
+    (explorer.explore(semantics, limit, progress), known)
+}
+
+/// The coverability tree. Scans reach no more than single transitions do if nothing is only read.
+fn cover(net: &PtNet, semantics: Semantics, nodes: usize) -> Option<Cover> {
     match semantics {
         Semantics::Interleaving => Some(space::cover(net, nodes)),
         Semantics::Step => {
@@ -111,33 +145,8 @@ fn without_tests(net: &PtNet) -> PtNet {
     net
 }
 
-fn at_most(limit: Limit, most: usize) -> usize {
-    match limit {
-        Limit::Markings(markings) => markings.min(most),
-        Limit::Bytes(_) => most,
-    }
-}
-
-/// An unbounded net is not explored until memory is full.
-fn held(limit: Limit, cover: Option<&Cover>, bounds: &[Option<u64>]) -> Limit {
-    let is_bounded = cover.is_some_and(|cover| cover.complete && cover.unbounded.is_empty());
-    if is_bounded || bounds.iter().all(Option::is_some) {
-        return limit;
-    }
-    match limit {
-        Limit::Bytes(_) if cover.is_some_and(|cover| !cover.unbounded.is_empty()) => Limit::Markings(MOST_UNBOUNDED),
-        Limit::Bytes(_) | Limit::Markings(_) => limit,
-    }
-}
-
 /// Dead markings, by the siphons, or by a search for them alone.
-fn deadlock(
-    net: &PtNet,
-    explorer: &Explorer,
-    semantics: Semantics,
-    siphons: Option<&[Siphon]>,
-    limit: Limit,
-) -> Deadlock {
+fn deadlock(net: &PtNet, explorer: &Explorer, semantics: Semantics, siphons: Option<&[Siphon]>) -> Deadlock {
     let never_empty = siphons.is_some_and(<[Siphon]>::is_empty);
     // In a scan two transitions may each take what the other one reads, and a marked trap may become empty.
     let is_safe = semantics == Semantics::Interleaving || net.transitions.iter().all(|t| t.reads.is_empty());
@@ -145,7 +154,7 @@ fn deadlock(
         return Deadlock::Never;
     }
     match semantics {
-        Semantics::Interleaving => explorer.deadlock(at_most(limit, MOST_REDUCED)),
+        Semantics::Interleaving => explorer.deadlock(FEW_REDUCED),
         Semantics::Step => Deadlock::Unknown,
     }
 }

@@ -1,19 +1,40 @@
 //! `pcl2 net analyze`
 
+use super::AnalyzeArgs;
 use super::answers::Report;
-use super::{AnalyzeArgs, Choice};
 use crate::console;
+use crate::nets::is_net;
 use crate::outcome::Outcome;
+use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use pcl2_net::analysis;
 use pcl2_net::pt::PtNet;
-use pcl2_net::space::Limit;
+use pcl2_net::space::{Limit, Semantics};
 use std::fs;
+
+/// What may happen at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Choice {
+    /// All that fires in one scan
+    Step,
+    /// One transition
+    Interleaving,
+}
+
+impl Choice {
+    fn semantics(self) -> Semantics {
+        match self {
+            Choice::Step => Semantics::Step,
+            Choice::Interleaving => Semantics::Interleaving,
+        }
+    }
+}
 
 /// Analyses a net.
 pub(crate) fn analyze(net: &PtNet, args: &AnalyzeArgs) -> Outcome {
-    let semantics = args.semantics.unwrap_or(Choice::Interleaving).semantics();
-    let limit = args.limit.map_or(Limit::Bytes(free_memory() / 2), Limit::Markings);
+    let usual = if is_net(&args.net.path) { Choice::Step } else { Choice::Interleaving };
+    let semantics = args.semantics.unwrap_or(usual).semantics();
+    let limit = args.limit.map_or_else(|| Limit::bytes(free_memory() / 2), Limit::markings);
     let bar = bar();
     let analysis = analysis::analyze(net, semantics, limit, &mut |markings| bar.set_position(markings));
     bar.finish_and_clear();

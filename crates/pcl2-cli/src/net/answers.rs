@@ -128,17 +128,17 @@ impl<'a> Report<'a> {
     /// Places by the most tokens that they can hold.
     fn bounds(&self) -> Vec<String> {
         let found = self.analysis;
-        let mut groups: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+        let mut groups: BTreeMap<Bound, Vec<&str>> = BTreeMap::new();
         for (i, place) in self.net.places.iter().enumerate() {
             let seen = found.space.complete.then_some(found.space.most[i]);
-            let title = match seen.or(found.bounds[i]) {
-                Some(bound) => format!("at most {bound}"),
-                None if self.is_unbounded(i) => "any number".to_owned(),
-                None => "not known".to_owned(),
+            let bound = match seen.or(found.bounds[i]) {
+                Some(bound) => Bound::AtMost(bound),
+                None if self.is_unbounded(i) => Bound::AnyNumber,
+                None => Bound::NotKnown,
             };
-            groups.entry(title).or_default().push(&place.name);
+            groups.entry(bound).or_default().push(&place.name);
         }
-        groups.into_iter().map(|(title, places)| format!("{title}: {}", places.join(", "))).collect()
+        groups.into_iter().map(|(bound, places)| format!("{}: {}", bound.text(), places.join(", "))).collect()
     }
 
     fn is_unbounded(&self, place: usize) -> bool {
@@ -188,6 +188,24 @@ impl<'a> Report<'a> {
         text.answer("reversible", found.reversible);
         if let Some(bottoms) = found.space.bottoms.filter(|bottoms| *bottoms > 1) {
             text.line(&format!("sets of markings that are never left: {bottoms}"));
+        }
+    }
+}
+
+/// How many tokens a place can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Bound {
+    AtMost(u64),
+    AnyNumber,
+    NotKnown,
+}
+
+impl Bound {
+    fn text(self) -> String {
+        match self {
+            Bound::AtMost(bound) => format!("at most {bound}"),
+            Bound::AnyNumber => "any number".to_owned(),
+            Bound::NotKnown => "not known".to_owned(),
         }
     }
 }

@@ -15,11 +15,10 @@ use crate::console;
 use crate::nets::is_net;
 use crate::outcome::Outcome;
 use crate::project::{self, Project, read_regular};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use pcl2_net::flat::{self, Flat};
 use pcl2_net::pnml;
 use pcl2_net::pt::PtNet;
-use pcl2_net::space::Semantics;
 use std::path::{Path, PathBuf};
 
 /// What is asked of a net.
@@ -56,41 +55,23 @@ pub(crate) struct NetPath {
 /// `pcl2 net analyze`
 #[derive(Args, Debug)]
 pub(crate) struct AnalyzeArgs {
-    /// A .net or .pnml file
-    pub(crate) path: PathBuf,
+    #[command(flatten)]
+    pub(crate) net: NetPath,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
-    /// What may happen at once; by default one transition
-    #[arg(long, value_enum, value_name = "step|interleaving")]
-    pub(crate) semantics: Option<Choice>,
+    /// What may happen at once; by default step for a .net file, interleaving for others
+    #[arg(long, value_name = "step|interleaving")]
+    pub(crate) semantics: Option<analyze::Choice>,
     /// The most markings that are looked at; by default what fits into half the free memory
     #[arg(long, value_name = "N")]
     pub(crate) limit: Option<usize>,
 }
 
-/// What may happen at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Choice {
-    /// All that fires in one scan
-    Step,
-    /// One transition
-    Interleaving,
-}
-
-impl Choice {
-    fn semantics(self) -> Semantics {
-        match self {
-            Choice::Step => Semantics::Step,
-            Choice::Interleaving => Semantics::Interleaving,
-        }
-    }
-}
-
 /// Runs a command.
 pub(crate) fn net(command: &NetCommand) -> Outcome {
     match command {
-        NetCommand::Analyze(args) => match load(&args.path, &[]) {
+        NetCommand::Analyze(args) => match load(&args.net.path, &args.net.blocks) {
             Ok(net) => analyze::analyze(&net, args),
             Err(outcome) => outcome,
         },

@@ -15,7 +15,7 @@ use crate::expr::{self, Kind, Scope};
 use crate::layout::UnitLayout;
 use crate::statics::Statics;
 use layout::NetLayout;
-use pcl2_lang::net::{BoxId, Kind as BoxKind, Net, NetBox};
+use pcl2_lang::net::{BoxId, Net, NetBox};
 use pcl2_lang::program::{Role, SignalId, UnitId};
 use pcl2_lang::types::{Scalar, Value};
 use std::fmt::Write;
@@ -88,17 +88,8 @@ pub(crate) fn enumerators(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
     let _ = writeln!(out, "/* The boxes of {}. */\nenum {{", net.body.decl.name);
     for (place, name) in net.net.boxes.iter().zip(&net.layout.boxes) {
-        let kind = match place.kind {
-            BoxKind::State => "state",
-            BoxKind::Capacity => "capacity",
-            BoxKind::Time(_) => "time",
-            BoxKind::Count => "count",
-            BoxKind::Action(_) => "action",
-            BoxKind::Process(_) => "process",
-            BoxKind::Generation(_) => "generation",
-            BoxKind::Macro(_) => "macro",
-        };
-        let _ = writeln!(out, "    {name}, /* {kind} */");
+        let _ = write!(out, "    {name}, ");
+        crate::text::comment(out, "", net.body.cx.sources.text(place.span));
     }
     out.push_str("};\n\n");
 }

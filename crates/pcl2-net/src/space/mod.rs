@@ -40,20 +40,34 @@ pub enum Semantics {
 
 /// Where an exploration stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
+pub struct Limit {
     /// At so many markings.
-    Markings(usize),
+    pub markings: usize,
     /// At as many markings as fit into so many bytes.
-    Bytes(u64),
+    pub bytes: u64,
 }
 
 impl Limit {
+    /// At so many markings, whatever memory they take.
+    pub fn markings(markings: usize) -> Limit {
+        Limit { markings, bytes: u64::MAX }
+    }
+
+    /// At as many markings as fit into so many bytes.
+    pub fn bytes(bytes: u64) -> Limit {
+        Limit { markings: usize::MAX, bytes }
+    }
+
+    /// At so many markings if it would be at more.
+    #[must_use]
+    pub fn at_most(self, markings: usize) -> Limit {
+        Limit { markings: self.markings.min(markings), ..self }
+    }
+
     /// As markings of a net whose packed markings have so many words.
-    fn markings(self, words: usize) -> usize {
-        match self {
-            Limit::Markings(markings) => markings,
-            Limit::Bytes(bytes) => usize::try_from(bytes / (8 * words as u64 + BESIDE_KEY)).unwrap_or(usize::MAX),
-        }
+    fn of_words(self, words: usize) -> usize {
+        let fit = usize::try_from(self.bytes / (8 * words as u64 + BESIDE_KEY)).unwrap_or(usize::MAX);
+        self.markings.min(fit)
     }
 }
 
@@ -143,7 +157,7 @@ impl Explorer {
             Semantics::Step => Kind::Steps,
         };
         let mut found = self.start.clone();
-        let stop = |words| Stop { limit: limit.markings(words), at_dead: false };
+        let stop = |words| Stop { limit: limit.of_words(words), at_dead: false };
         let limit = self.run(&mut found, kind, &stop, progress) as u64;
         let path = found.first_dead.and_then(|number| self.way(&found, kind, number));
         let bottoms = self.bottoms(&found, kind, progress);

@@ -3,13 +3,14 @@
 use crate::nets::{Dice, Flavour, random};
 use crate::plain;
 use pcl2_net::analysis::{Analysis, analyze};
+use pcl2_net::pnml;
 use pcl2_net::pt::{PtNet, TransitionId};
 use pcl2_net::space::{Limit, Semantics};
 use pcl2_net::structure::conflicts::Over;
 use pcl2_net::structure::siphons::{self, Member};
 
 fn analyzed(net: &PtNet, semantics: Semantics, limit: usize) -> Analysis {
-    analyze(net, semantics, Limit::Markings(limit), &mut |_| {})
+    analyze(net, semantics, Limit::markings(limit), &mut |_| {})
 }
 
 #[test]
@@ -26,6 +27,17 @@ fn random_nets_agree() {
         }
     }
     assert!(compared > 300, "{compared}");
+}
+
+#[test]
+fn nets_of_the_literature_agree() {
+    for name in ["FMS-PT-00002", "SwimmingPool-PT-01"] {
+        let file = format!("{}/../../tests/nets/{name}.pnml", env!("CARGO_MANIFEST_DIR"));
+        let net = pnml::read(&std::fs::read_to_string(file).unwrap()).unwrap();
+        let graph = plain::explore(&net, Semantics::Interleaving, 100_000).unwrap();
+        let markings: Vec<&plain::Marking> = graph.0.keys().collect();
+        agree(&net, &markings, &analyzed(&net, Semantics::Interleaving, usize::MAX), name);
+    }
 }
 
 /// What invariants, bounds and siphons say holds in each marking; the answers that follow from them are those of all

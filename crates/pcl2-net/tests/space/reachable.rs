@@ -8,7 +8,7 @@ use pcl2_net::space::{Explorer, Limit, Semantics, Space};
 const SEMANTICS: [Semantics; 2] = [Semantics::Interleaving, Semantics::Step];
 
 fn explore(net: &PtNet, semantics: Semantics, limit: usize) -> Space {
-    Explorer::new(net).explore(semantics, Limit::Markings(limit), &mut |_| {})
+    Explorer::new(net).explore(semantics, Limit::markings(limit), &mut |_| {})
 }
 
 #[test]

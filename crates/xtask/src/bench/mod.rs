@@ -5,11 +5,13 @@ mod child;
 mod compare;
 mod front;
 mod kernels;
+mod literature;
 mod m4;
 mod nets;
 mod run;
 mod scan;
 mod sources;
+mod space;
 mod table;
 mod tools;
 
@@ -53,6 +55,8 @@ enum Area {
     Nets,
     /// Speed of `run`
     Run,
+    /// Speed and memory of `net analyze`
+    Space,
 }
 
 /// Measures, and prints the table to standard output.
@@ -83,6 +87,7 @@ fn measure(area: Area, tools: &Tools, table: &mut Table) -> Result<(), String> {
         Area::M4 => m4::measure(tools, table),
         Area::Nets => nets::measure(tools, table),
         Area::Run => run::measure(tools, table),
+        Area::Space => space::measure(tools, table),
     }
 }
 
@@ -95,5 +100,6 @@ fn name(area: Area) -> &'static str {
         Area::M4 => "m4",
         Area::Nets => "nets",
         Area::Run => "run",
+        Area::Space => "space",
     }
 }
