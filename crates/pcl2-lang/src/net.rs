@@ -63,6 +63,8 @@ pub struct Net {
 pub struct Touched {
     /// Outputs that it writes without reading them: two different values in one scan are a conflict.
     pub writes: Vec<WordId>,
+    /// Outputs that it writes and reads: it counts on, and is in no conflict.
+    pub counts: Vec<WordId>,
     /// Boxes whose token it looks at or changes.
     pub looks: Vec<BoxId>,
 }
@@ -349,8 +351,8 @@ pub struct Operation {
     pub mode: (u32, WordId),
     /// Commands: a step, the number of a gate to fire, of a box to put a token into, of one to take a token from.
     pub commands: [Option<WordId>; 4],
-    /// What outputs are while the net is stopped; the others hold.
-    pub stops: Vec<(WordId, Value)>,
+    /// What outputs are while the net is stopped; `None`: what they were. The others do not change meanwhile.
+    pub stops: Vec<(WordId, Option<Value>)>,
 }
 
 /// A signal that a net keeps.

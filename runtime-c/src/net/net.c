@@ -6,15 +6,16 @@
  * gate    befores, afters, reads, inhibits, permits, rules; (box, weight) of each before and after;
  *         (part + 1, box, weight) of each read and inhibit; permits; then of each rule: condition + 1,
  *         n, boxes whose tokens it looks at, n, words that it clears, n, moves (before + 1, n, afters), n, statements
- * statement  n, words that it writes and that may conflict, n, boxes whose token it looks at
+ * statement  n, twice each word that it writes, and 1 if it counts on and is in no conflict, n, boxes whose token it
+ *         looks at
  * class   n, of each attribute 0 an int, 1 a real
  * levels  n, of each: word, n, boxes, n, (part, output)
  * actives n, of each: word, word of the time + 1, n, boxes
  * parts   n, of each: entry, exit, how far behind the net it stands, box of the macro + 1,
  *         abort: condition + 1, box, n, statements; n, (output, word)
  * operated  words, each + 1: of BLOCKED, of the mode, of the commands go, fire, put, take; n, of each word that has a
- *         value of its own while the net is stopped: word, its place among the attributes; the gates in the order of
- *         the file; by gate the number of its first permissive term */
+ *         value of its own while the net is stopped: word, its place among the attributes, whether it is what it was;
+ *         the gates in the order of the file; by gate the number of its first permissive term */
 #include "pcl2_net.h"
 
 #define NET_ORDER_FIFO 0
@@ -208,7 +209,7 @@ static const pcl2_net_word *net_modes(const struct pcl2_net *net)
 
 static const pcl2_net_word *net_gates_in_file(const pcl2_net_word *operated)
 {
-    return operated + NET_OPERATED_STOPS + 1 + 2 * operated[NET_OPERATED_STOPS];
+    return operated + NET_OPERATED_STOPS + 1 + 3 * operated[NET_OPERATED_STOPS];
 }
 
 /* What a command says; it is cleared, since it is obeyed or refused. */
@@ -253,19 +254,40 @@ static int32_t net_mode(struct pcl2_net *net, const pcl2_net_word *modes)
     return mode == PCL2_NET_AUTOMATIC || mode == PCL2_NET_MANUAL ? mode : PCL2_NET_STOPPED;
 }
 
+static int32_t net_is_real(const struct pcl2_net *net, int32_t word)
+{
+    return net->table[net->table[PCL2_NET_WORDS] + word] & 1;
+}
+
+/* Where the value stands aside that a word has while the net is stopped, and else while it is not. */
+static void *net_aside(const struct pcl2_net *net, const pcl2_net_word *stop)
+{
+    return net_is_real(net, stop[0]) ? (void *)(net->reals + stop[1]) : (void *)(net->ints + stop[1]);
+}
+
 /* Outputs and what they are while the net is stopped change places: the one that is not used stands aside. */
 static void net_swap(struct pcl2_net *net, const pcl2_net_word *modes)
 {
     const pcl2_net_word *stop = modes + NET_OPERATED_STOPS + 1;
-    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 2) {
-        const int32_t real = net->table[net->table[PCL2_NET_WORDS] + stop[0]] & 1;
-        void *aside = real ? (void *)(net->reals + stop[1]) : (void *)(net->ints + stop[1]), *word;
-        const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
+    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 3) {
+        const size_t size = net_is_real(net, stop[0]) ? sizeof(pcl2_real) : sizeof(int32_t);
+        void *aside = net_aside(net, stop), *word = net_word_at(net, stop[0]);
         pcl2_real kept;
-        word = net_word_at(net, stop[0]);
         memcpy(&kept, word, size);
         memcpy(word, aside, size);
         memcpy(aside, &kept, size);
+    }
+}
+
+/* Outputs that hold are what they were before the stop, whatever nets inside do. */
+static void net_hold(struct pcl2_net *net, const pcl2_net_word *modes)
+{
+    const pcl2_net_word *stop = modes + NET_OPERATED_STOPS + 1;
+    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 3) {
+        if (stop[2] != 0) {
+            const size_t size = net_is_real(net, stop[0]) ? sizeof(pcl2_real) : sizeof(int32_t);
+            memcpy(net_aside(net, stop), net_word_at(net, stop[0]), size);
+        }
     }
 }
 
@@ -292,6 +314,8 @@ static void net_begin(struct pcl2_net *net, int64_t now)
         net->mode = net_mode(net, modes);
         if (*net->halted) {
             net_swap(net, modes);
+        } else if (net->mode == PCL2_NET_STOPPED) {
+            net_hold(net, modes);
         }
     }
 }
@@ -316,21 +340,19 @@ static void net_end(struct pcl2_net *net, int64_t period)
 
 static int32_t net_same(const struct pcl2_net *net, int32_t word, const void *value)
 {
-    const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
-    return memcmp(net_word_at(net, word), value, real ? sizeof(pcl2_real) : sizeof(int32_t)) == 0;
+    return memcmp(net_word_at(net, word), value, net_is_real(net, word) ? sizeof(pcl2_real) : sizeof(int32_t)) == 0;
 }
 
 static void net_keep(const struct pcl2_net *net, int32_t word, void *value, int32_t back)
 {
-    const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
-    const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
+    const size_t size = net_is_real(net, word) ? sizeof(pcl2_real) : sizeof(int32_t);
     memcpy(back ? net_word_at(net, word) : value, back ? value : net_word_at(net, word), size);
 }
 
 /* A word has a new value: of two different ones in a scan that of the gate with the higher priority stays. */
 static void net_written(struct pcl2_net *net, int32_t word, int32_t gate, void *before)
 {
-    if (net->wrote[word] != 0 && !net_same(net, word, before)) {
+    if (net->wrote[word] > 0 && !net_same(net, word, before)) {
         net_fault(net, PCL2_NET_CONFLICT);
         net_count(net->conflicts);
         if (gate + 1 >= net->wrote[word]) {
@@ -338,7 +360,7 @@ static void net_written(struct pcl2_net *net, int32_t word, int32_t gate, void *
             return;
         }
     }
-    if (net->wrote[word] == 0 || gate + 1 < net->wrote[word]) {
+    if (net->wrote[word] <= 0 || gate + 1 < net->wrote[word]) {
         net->wrote[word] = gate + 1;
     }
 }
@@ -359,11 +381,15 @@ static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
         }
     }
     for (int32_t i = 0; i < targets[0]; i++) {
-        net_keep(net, targets[i + 1], &before[i], 0);
+        net_keep(net, targets[i + 1] >> 1, &before[i], 0);
     }
     const int32_t result = net->act(net, script);
     for (int32_t i = 0; i < targets[0]; i++) {
-        net_written(net, targets[i + 1], gate, &before[i]);
+        if ((targets[i + 1] & 1) == 0) {
+            net_written(net, targets[i + 1] >> 1, gate, &before[i]);
+        } else if (net->wrote[targets[i + 1] >> 1] == 0) {
+            net->wrote[targets[i + 1] >> 1] = -1;
+        }
     }
     for (int32_t i = 1; i <= looks[0]; i++) {
         if (net->hold[looks[i]] > 0) {

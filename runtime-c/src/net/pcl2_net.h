@@ -70,7 +70,7 @@ struct pcl2_net {
     pcl2_real *reals;              /* those that are reals */
     const size_t *words;           /* by word: where it is */
     const size_t *hands;           /* by attribute of each box: where the token in hand is */
-    int32_t *wrote;                /* by word: 0 nobody wrote it in this scan, else the gate that did, from 1 */
+    int32_t *wrote;                /* by word: 0 nobody wrote it in this scan, -1 counted on, else the gate that did, from 1 */
     int32_t *active;               /* by ACTIVE line: what was marked in the last scan */
     int64_t *active_since;         /* by ACTIVE line: since when, nanoseconds */
     const struct pcl2_net *outer;  /* the net around it, or NULL */

@@ -164,7 +164,7 @@ impl<'a> Builder<'a> {
             self.complain(codes::TOO_LARGE, statement.span, message, "divide the net");
         }
         let touched = self.touched(&statement);
-        if touched.writes.len() > MAX_WRITES {
+        if touched.writes.len() + touched.counts.len() > MAX_WRITES {
             let message = format!("expected at most {MAX_WRITES} outputs of a statement, found more");
             self.complain(codes::TOO_LARGE, statement.span, message, "divide the statement");
         }
@@ -215,10 +215,10 @@ impl<'a> Builder<'a> {
             match output {
                 Output::Member(owner, _) => looks.extend(place(owner)),
                 Output::Name(name) => {
-                    if let (Some((Thing::Word(word), _)), false) =
-                        (self.names.get(&name.symbol), reads.contains(&name.symbol))
-                    {
-                        touched.writes.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
+                    if let Some((Thing::Word(word), _)) = self.names.get(&name.symbol) {
+                        let counts = reads.contains(&name.symbol);
+                        let list = if counts { &mut touched.counts } else { &mut touched.writes };
+                        list.extend(Some(*word).filter(|word| (word.0 as usize) < self.net.outputs));
                     }
                 }
                 Output::Discard(_) => {}
