@@ -352,8 +352,8 @@ pub struct Operation {
     pub mode: (u32, WordId),
     /// Commands: a step, the number of a gate to fire, of a box to put a token into, of one to take a token from.
     pub commands: [Option<WordId>; 4],
-    /// What outputs are while the net is stopped; the others hold.
-    pub stops: Vec<(WordId, Value)>,
+    /// What outputs are while the net is stopped; `None`: what they were. The others do not change meanwhile.
+    pub stops: Vec<(WordId, Option<Value>)>,
 }
 
 /// A signal that a net keeps.

@@ -14,8 +14,8 @@
  * parts   n, of each: entry, exit, how far behind the net it stands, box of the macro + 1,
  *         abort: condition + 1, box, n, statements; n, (output, word)
  * operated  words, each + 1: of BLOCKED, of the mode, of the commands go, fire, put, take; n, of each word that has a
- *         value of its own while the net is stopped: word, its place among the attributes; the gates in the order of
- *         the file; by gate the number of its first permissive term */
+ *         value of its own while the net is stopped: word, its place among the attributes, whether it is what it was;
+ *         the gates in the order of the file; by gate the number of its first permissive term */
 #include "pcl2_net.h"
 
 #define NET_ORDER_FIFO 0
@@ -196,7 +196,7 @@ static const pcl2_net_word *net_modes(const struct pcl2_net *net)
 
 static const pcl2_net_word *net_gates_in_file(const pcl2_net_word *operated)
 {
-    return operated + NET_OPERATED_STOPS + 1 + 2 * operated[NET_OPERATED_STOPS];
+    return operated + NET_OPERATED_STOPS + 1 + 3 * operated[NET_OPERATED_STOPS];
 }
 
 /* What a command says; it is cleared, since it is obeyed or refused. */
@@ -241,19 +241,40 @@ static int32_t net_mode(struct pcl2_net *net, const pcl2_net_word *modes)
     return mode == PCL2_NET_AUTOMATIC || mode == PCL2_NET_MANUAL ? mode : PCL2_NET_STOPPED;
 }
 
+static int32_t net_is_real(const struct pcl2_net *net, int32_t word)
+{
+    return net->table[net->table[PCL2_NET_WORDS] + word] & 1;
+}
+
+/* Where the value stands aside that a word has while the net is stopped, and else while it is not. */
+static void *net_aside(const struct pcl2_net *net, const pcl2_net_word *stop)
+{
+    return net_is_real(net, stop[0]) ? (void *)(net->reals + stop[1]) : (void *)(net->ints + stop[1]);
+}
+
 /* Outputs and what they are while the net is stopped change places: the one that is not used stands aside. */
 static void net_swap(struct pcl2_net *net, const pcl2_net_word *modes)
 {
     const pcl2_net_word *stop = modes + NET_OPERATED_STOPS + 1;
-    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 2) {
-        const int32_t real = net->table[net->table[PCL2_NET_WORDS] + stop[0]] & 1;
-        void *aside = real ? (void *)(net->reals + stop[1]) : (void *)(net->ints + stop[1]), *word;
-        const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
+    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 3) {
+        const size_t size = net_is_real(net, stop[0]) ? sizeof(pcl2_real) : sizeof(int32_t);
+        void *aside = net_aside(net, stop), *word = net_word_at(net, stop[0]);
         pcl2_real kept;
-        word = net_word_at(net, stop[0]);
         memcpy(&kept, word, size);
         memcpy(word, aside, size);
         memcpy(aside, &kept, size);
+    }
+}
+
+/* Outputs that hold are what they were before the stop, whatever nets inside do. */
+static void net_hold(struct pcl2_net *net, const pcl2_net_word *modes)
+{
+    const pcl2_net_word *stop = modes + NET_OPERATED_STOPS + 1;
+    for (int32_t i = 0; i < modes[NET_OPERATED_STOPS]; i++, stop += 3) {
+        if (stop[2] != 0) {
+            const size_t size = net_is_real(net, stop[0]) ? sizeof(pcl2_real) : sizeof(int32_t);
+            memcpy(net_aside(net, stop), net_word_at(net, stop[0]), size);
+        }
     }
 }
 
@@ -280,6 +301,8 @@ static void net_begin(struct pcl2_net *net, int64_t now)
         net->mode = net_mode(net, modes);
         if (*net->halted) {
             net_swap(net, modes);
+        } else if (net->mode == PCL2_NET_STOPPED) {
+            net_hold(net, modes);
         }
     }
 }
@@ -304,14 +327,12 @@ static void net_end(struct pcl2_net *net, int64_t period)
 
 static int32_t net_same(const struct pcl2_net *net, int32_t word, const void *value)
 {
-    const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
-    return memcmp(net_word_at(net, word), value, real ? sizeof(pcl2_real) : sizeof(int32_t)) == 0;
+    return memcmp(net_word_at(net, word), value, net_is_real(net, word) ? sizeof(pcl2_real) : sizeof(int32_t)) == 0;
 }
 
 static void net_keep(const struct pcl2_net *net, int32_t word, void *value, int32_t back)
 {
-    const int32_t real = net->table[net->table[PCL2_NET_WORDS] + word] & 1;
-    const size_t size = real ? sizeof(pcl2_real) : sizeof(int32_t);
+    const size_t size = net_is_real(net, word) ? sizeof(pcl2_real) : sizeof(int32_t);
     memcpy(back ? net_word_at(net, word) : value, back ? value : net_word_at(net, word), size);
 }
 

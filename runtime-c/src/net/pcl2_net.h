@@ -63,7 +63,7 @@ struct pcl2_net {
     pcl2_real *reals;              /* those that are reals */
     const size_t *words;           /* by word: where it is */
     const size_t *hands;           /* by attribute of each box: where the token in hand is */
-    int32_t *wrote;                /* by word: 0 it is as before the scan, the gate that wrote it, from 1, -1 counted on */
+    int32_t *wrote;                /* by word: 0 as before the scan, the gate that wrote it, from 1, -1 counted on */
     int32_t *active;               /* by ACTIVE line: what was marked in the last scan */
     int64_t *active_since;         /* by ACTIVE line: since when, nanoseconds */
     const struct pcl2_net *outer;  /* the net around it, or NULL */

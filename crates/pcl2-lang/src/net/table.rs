@@ -250,12 +250,13 @@ impl Builder<'_> {
         let stops = operation.map_or(&[][..], |operation| &operation.stops);
         self.push([count(stops.len())]);
         for (word, value) in stops {
-            let place = match value {
-                Value::Int(value) => pushed(&mut self.table.ints, *value),
-                Value::Real(value) => pushed(&mut self.table.reals, *value),
-                Value::Ints(_) | Value::Reals(_) | Value::Text(_) => 0,
+            let place = match (value, self.net.words[word.0 as usize].scalar) {
+                (Some(Value::Int(value)), _) => pushed(&mut self.table.ints, *value),
+                (Some(Value::Real(value)), _) => pushed(&mut self.table.reals, *value),
+                (_, Scalar::Int) => pushed(&mut self.table.ints, 0),
+                (_, Scalar::Real) => pushed(&mut self.table.reals, Real::ZERO),
             };
-            self.push([word.0 as i32, place]);
+            self.push([word.0 as i32, place, i32::from(value.is_none())]);
         }
         self.table.words.extend(self.net.numbered.iter().map(|gate| gate.0 as i32));
         self.table.words.extend(self.net.first_terms().iter().map(|term| *term as i32));

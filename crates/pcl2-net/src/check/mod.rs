@@ -164,7 +164,7 @@ impl<'a> Builder<'a> {
             self.complain(codes::TOO_LARGE, statement.span, message, "divide the net");
         }
         let touched = self.touched(&statement);
-        if touched.writes.len() > MAX_WRITES {
+        if touched.writes.len() + touched.counts.len() > MAX_WRITES {
             let message = format!("expected at most {MAX_WRITES} outputs of a statement, found more");
             self.complain(codes::TOO_LARGE, statement.span, message, "divide the statement");
         }

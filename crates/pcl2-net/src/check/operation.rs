@@ -6,7 +6,7 @@ use pcl2_lang::ast::Name;
 use pcl2_lang::ast::net::Halt;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Item, PortDecl, TypeExpr};
-use pcl2_lang::net::{Operation, WordId};
+use pcl2_lang::net::{Drive, Level, Operation, WordId};
 use pcl2_lang::types::{Scalar, Value};
 
 /// The modes, in the order of their numbers.
@@ -141,8 +141,8 @@ fn stops(builder: &mut Builder<'_>, halts: &[Halt]) {
         let told = net.actives.iter().flat_map(|active| [Some(active.step), active.time]).chain([net.blocked]);
         told.flatten().any(|filled| filled.0 as usize == word)
     };
-    let mut values: Vec<Option<Value>> =
-        (0..heads).map(|word| (!filled(word)).then(|| zero(builder.net.words[word].scalar))).collect();
+    let off = |word: usize| (!filled(word)).then(|| Some(zero(builder.net.words[word].scalar)));
+    let mut values: Vec<Option<Option<Value>>> = (0..heads).map(off).collect();
     let mut seen = vec![false; heads];
     for halt in halts {
         let Some(word) = stopped_output(builder, halt.name, &values, &seen) else {
@@ -150,7 +150,10 @@ fn stops(builder: &mut Builder<'_>, halts: &[Halt]) {
         };
         seen[word] = true;
         let scalar = builder.net.words[word].scalar;
-        values[word] = halt.value.and_then(|(number, span)| builder.constant(number, span, scalar));
+        values[word] = match halt.value {
+            Some((number, span)) => builder.constant(number, span, scalar).map(Some),
+            None => fed(builder, WordId(word as u32)).then_some(None),
+        };
     }
     let values = values.into_iter().enumerate().filter_map(|(i, value)| Some((WordId(i as u32), value?)));
     if let Some(operation) = &mut builder.net.operation {
@@ -158,8 +161,23 @@ fn stops(builder: &mut Builder<'_>, halts: &[Halt]) {
     }
 }
 
+/// Whether a net inside, which may go on, gives a word its value.
+fn fed(builder: &Builder<'_>, word: WordId) -> bool {
+    let drive = &builder.net.words[word.0 as usize].drive;
+    let driven = match drive {
+        Drive::Level(levels) => levels.iter().any(|level| matches!(level, Level::Part(..))),
+        Drive::Written => false,
+    };
+    driven || builder.net.parts.iter().any(|part| part.writes.iter().any(|(_, written)| *written == word))
+}
+
 /// The output of a STOP: each once, and none that the net fills itself.
-fn stopped_output(builder: &mut Builder<'_>, name: Name, values: &[Option<Value>], seen: &[bool]) -> Option<usize> {
+fn stopped_output(
+    builder: &mut Builder<'_>,
+    name: Name,
+    values: &[Option<Option<Value>>],
+    seen: &[bool],
+) -> Option<usize> {
     let text = builder.text(name);
     let word = match builder.names.get(&name.symbol).map(|(thing, _)| *thing) {
         Some(Thing::Word(word)) => word.0 as usize,
@@ -171,7 +189,7 @@ fn stopped_output(builder: &mut Builder<'_>, name: Name, values: &[Option<Value>
         }
     };
     let (expected, help) = match (values.get(word), seen.get(word)) {
-        (None, _) => ("an output", "locals hold while the net is stopped"),
+        (None, _) => ("an output", "a local is seen in the net alone"),
         (_, Some(true)) => ("each output once", "delete one of them"),
         (Some(None), _) => ("an output that boxes drive or statements write", "ACTIVE and BLOCKED fill the others"),
         (Some(Some(_)), _) => return Some(word),
