@@ -6,6 +6,7 @@ use crate::expr::{self, Kind, Scope};
 use crate::facts::{self, Scratch, element_scalar};
 use crate::formula;
 use crate::layout::{Store, writes_through};
+use crate::net;
 use crate::statics::Statics;
 use crate::text;
 use pcl2_lang::kernel::{self, Entry};
@@ -42,6 +43,9 @@ pub(crate) fn step(
     prepare(out, &mut call, INDENT);
     match (telling(cx, scope.unit, id), call.block().unit) {
         (Telling::Result, _) => doubtful_call(out, statics, &call, raise),
+        (Telling::Never | Telling::Status, Some(inner)) if net::is_top(cx, scope.unit, inner) => {
+            net::top(out, statics, cx, scope, id);
+        }
         (Telling::Never | Telling::Status, inner) => {
             out.push_str(INDENT);
             match inner {

@@ -33,8 +33,6 @@ pub(crate) struct NetFacts {
     pub(crate) readied: Vec<Vec<(usize, u32)>>,
     /// By box: the outputs that it drives, as places among `levels`.
     pub(crate) driven: Vec<Vec<usize>>,
-    /// It stands inside another net.
-    pub(crate) part: bool,
     /// A statement reads the time of an ACTIVE line: each scan changes what the net does.
     pub(crate) ticking: bool,
 }
@@ -82,7 +80,6 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
         takers: vec![0; net.boxes.len()],
         putters: vec![0; net.boxes.len()],
         tracked: vec![false; net.words.len()],
-        part,
         ..NetFacts::default()
     };
     let none = || vec![None; net.boxes.len()];

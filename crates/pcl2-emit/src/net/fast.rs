@@ -17,7 +17,7 @@ use crate::layout::WHOLE;
 use crate::statics::Statics;
 use pcl2_lang::net::{BoxId, Drive, Kind, Level, Net, PartId};
 use pcl2_lang::program::{Role, SignalId};
-use pcl2_lang::types::{Scalar, Type};
+use pcl2_lang::types::Type;
 use std::fmt::Write;
 
 /// The member of a net inside.
@@ -276,18 +276,6 @@ static inline void {tag}_empty(struct {tag} *self)
     out.push_str("    self->net.go = 1;\n    self->net.restless = 1;\n}\n\n");
 }
 
-/// `a differs from b`
-fn differs(ty: Type, a: &str, b: &str) -> String {
-    match (ty.is_scalar(), ty.scalar) {
-        (true, Scalar::Int) => format!("({a} ^ {b})"),
-        (true, Scalar::Real) => format!("pcl2_net_differ({a}, {b})"),
-        (false, scalar) => {
-            let size = pcl2_lang::kernel::c_scalar(scalar);
-            format!("(memcmp({a}, {b}, {} * sizeof({size})) != 0)", ty.elements())
-        }
-    }
-}
-
 fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
     let _ = writeln!(
@@ -323,7 +311,7 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
         if layout.net.as_ref().is_some_and(|net| net.timed) {
             let _ = writeln!(out, "    self->{member}.net.now = self->net.now;");
         }
-        let inputs = statements::inputs_of(statics, net, part);
+        let inputs = statements::part_inputs(statics, net, part);
         if inputs.is_empty() {
             let _ = writeln!(out, "    happened |= {}_boxes(&self->{member}, 0);", layout.tag);
             continue;
@@ -626,22 +614,21 @@ fn active(out: &mut String, net: &NetBody<'_, '_, '_>) {
     out.push_str("}\n\n");
 }
 
-/// Writes a scan: the arguments are the inputs.
+/// Writes the function of a scan of an instance whose inputs are there.
 pub(super) fn scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
-    if changes(net).is_empty() {
-        out.push_str("    const int32_t changed = 0;\n");
-    } else {
-        take_changed(out, net);
-    }
     let _ = write!(
         out,
-        "    if ({tag}_boxes(self, changed)) {{
+        "/* A scan of {}: its inputs are there. */
+static void {tag}_scan(struct {tag} *self, int32_t changed)
+{{
+    if ({tag}_boxes(self, changed)) {{
         {tag}_gates(self);
         {tag}_commit(self);
         {tag}_levels(self);
     }}
-"
+",
+        net.body.decl.name
     );
     if active_apart(net) {
         let _ = writeln!(out, "    {tag}_active(self);");
@@ -649,11 +636,22 @@ pub(super) fn scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
     if net.layout.timed {
         out.push_str("    self->net.now += self->net.period;\n");
     }
+    out.push_str("}\n\n");
 }
 
-/// Writes the function that takes the inputs of a net inside another in.
+/// Writes a scan: the arguments are the inputs.
+pub(super) fn take_and_scan(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let tag = net.tag();
+    let arguments: Vec<&str> = net.body.layout.ports.iter().map(|(name, _)| name.as_str()).collect();
+    let _ = match changes(net).is_empty() {
+        true => writeln!(out, "    {tag}_scan(self, 0);"),
+        false => writeln!(out, "    {tag}_scan(self, {tag}_inputs(self, {}));", arguments.join(", ")),
+    };
+}
+
+/// Writes the function that takes inputs in.
 fn inputs(out: &mut String, net: &NetBody<'_, '_, '_>) {
-    if !net.layout.facts.part || changes(net).is_empty() {
+    if changes(net).is_empty() {
         return;
     }
     let tag = net.tag();
@@ -719,14 +717,14 @@ fn changes(net: &NetBody<'_, '_, '_>) -> Vec<String> {
         if signal.ty.elements() > 0 {
             let mut place = String::new();
             expr::signal_base(&mut place, net.body.cx, net.scope(), SignalId(i as u32));
-            changes.push(differs(signal.ty, &place, port_name(port)));
+            changes.push(statements::differs(signal.ty, &place, port_name(port)));
         }
     }
     for (port, word) in &net.net.momentary {
         let Role::Port(port) = net.body.unit.signals[*port as usize].role else {
             continue;
         };
-        changes.push(differs(Type::INT, &net.word(word.0 as usize, net.scope()), port_name(port)));
+        changes.push(statements::differs(Type::INT, &net.word(word.0 as usize, net.scope()), port_name(port)));
     }
     changes
 }

@@ -33,8 +33,10 @@ pub(crate) struct NetLayout {
     pub(crate) timed: bool,
     /// Scratch of its statements.
     pub(crate) scratch: Scratch,
-    /// It stands outside of other nets too.
+    /// A composite stands around it somewhere.
     pub(crate) called: bool,
+    /// It is a block of the program somewhere.
+    pub(crate) top: bool,
     /// How it becomes C.
     pub(crate) form: NetForm,
     /// Of the fast form: what its code can leave out.
@@ -100,7 +102,7 @@ pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetF
         let (Some(net), Some(layout)) = (net_of(program, unit), units[index].net.as_mut()) else {
             continue;
         };
-        layout.called = called[index];
+        (layout.called, layout.top) = called[index];
         layout.facts = facts::of(program, net, unit, layout.held, part[index]);
         layout.fields = match layout.form {
             NetForm::Table => table_fields(net, layout),
@@ -137,12 +139,15 @@ fn forms(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) -> Vec<
     part
 }
 
-/// By unit: whether a block outside of nets stands for it.
-fn called(program: &Program, units: &[UnitLayout<'_>]) -> Vec<bool> {
-    let mut called = vec![false; units.len()];
-    for (unit, _) in program.units.iter().zip(units).filter(|(_, layout)| layout.used) {
+/// By unit: whether a block of a composite stands for it, and whether one of the program does.
+fn called(program: &Program, units: &[UnitLayout<'_>]) -> Vec<(bool, bool)> {
+    let mut called = vec![(false, false); units.len()];
+    for (index, unit) in program.units.iter().enumerate().filter(|(index, _)| units[*index].used) {
         if net_of(program, unit).is_none() {
-            unit.blocks.iter().filter_map(|block| block.unit).for_each(|inner| called[inner.0 as usize] = true);
+            for inner in unit.blocks.iter().filter_map(|block| block.unit) {
+                let (inside, top) = &mut called[inner.0 as usize];
+                *(if index == 0 { top } else { inside }) = true;
+            }
         }
     }
     called

@@ -163,20 +163,44 @@ pub(super) struct Input {
     pub(super) ty: Type,
 }
 
+impl Input {
+    /// What tells that it changes; one without elements never does.
+    pub(super) fn change(&self) -> Option<String> {
+        (self.ty.elements() > 0).then(|| differs(self.ty, &self.to, &self.from))
+    }
+}
+
+/// What is not 0 where two values differ.
+pub(super) fn differs(ty: Type, a: &str, b: &str) -> String {
+    match (ty.is_scalar(), ty.scalar) {
+        (true, Scalar::Int) => format!("({a} ^ {b})"),
+        (true, Scalar::Real) => format!("pcl2_net_differ({a}, {b})"),
+        (false, scalar) => {
+            let size = pcl2_lang::kernel::c_scalar(scalar);
+            format!("(memcmp({a}, {b}, {} * sizeof({size})) != 0)", ty.elements())
+        }
+    }
+}
+
 /// The inputs of a net inside, then its commands.
-pub(super) fn inputs_of(statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize) -> Vec<Input> {
-    let call = call(net, net.net.parts[part].statement);
-    let Some(inner) = call.block().unit.and_then(|inner| Body::new(net.body.cx, inner)) else {
+pub(super) fn part_inputs(statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize) -> Vec<Input> {
+    inputs_of(statics, &call(net, net.net.parts[part].statement), &instance(net, part))
+}
+
+/// The inputs of a net that is called, then its commands.
+pub(super) fn inputs_of(statics: &mut Statics, call: &Call<'_, '_>, instance: &str) -> Vec<Input> {
+    let cx = call.cx;
+    let Some(inner) = call.block().unit.and_then(|inner| Body::new(cx, inner)) else {
         return Vec::new();
     };
     let Some(inside) = NetBody::of(&inner) else {
         return Vec::new();
     };
-    let root = format!("{}.", instance(net, part));
+    let root = format!("{instance}.");
     let scope = Scope { unit: inner.id, root: &root, part: crate::layout::WHOLE };
     let place = |signal: SignalId| {
         let mut text = String::new();
-        expr::signal_base(&mut text, net.body.cx, scope, signal);
+        expr::signal_base(&mut text, cx, scope, signal);
         text
     };
     let mut inputs = Vec::new();
@@ -197,7 +221,7 @@ pub(super) fn inputs_of(statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: 
 
 /// Writes how the inputs of a net inside are taken in.
 pub(super) fn inputs(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize, indent: &str) {
-    for input in inputs_of(statics, net, part) {
+    for input in part_inputs(statics, net, part) {
         let kind = if input.ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) };
         let write = |out: &mut String, text: &str| {
             out.push_str(text);

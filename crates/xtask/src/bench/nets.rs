@@ -139,7 +139,7 @@ fn gate(first: usize, extra: usize, l: usize, s: usize) -> Gate {
     let state = |s: usize| first + l * LOOP + s % LOOP;
     let (mut before, mut after) = (vec![state(s)], vec![state(s + 1)]);
     // Two pairs of loops share a key from their third state to their sixth.
-    if l < MOVING || l >= MOVING + 4 {
+    if !(MOVING..MOVING + 4).contains(&l) {
         return Gate { before, after, guard: vec![(l % INPUTS, s % 2 == 0)] };
     }
     let key = extra + (l - MOVING) / 2;
