@@ -31,6 +31,8 @@ pub(crate) struct NetFacts {
     last_watcher: Vec<Option<usize>>,
     /// By box: the gates that it is the first box of, as words of a set.
     pub(crate) readied: Vec<Vec<(usize, u32)>>,
+    /// By box: the end of the gate phase may have to look at it.
+    pub(crate) late: Vec<bool>,
     /// By box: the outputs that it drives, as places among `levels`.
     pub(crate) driven: Vec<Vec<usize>>,
     /// A statement reads the time of an ACTIVE line: each scan changes what the net does.
@@ -104,6 +106,7 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
         let mut ports = unit.blocks.iter().flat_map(|block| &block.ports).filter_map(Source::signal);
         ports.any(|signal| signal.0 as usize == held + word)
     };
+    facts.late = facts.find_late(net);
     facts.ticking = timers.iter().any(|word| part || reads(*word));
     facts
 }
@@ -204,6 +207,26 @@ impl NetFacts {
                 }
             }
         }
+    }
+
+    /// Boxes whose tokens do not all come and go at once, and those that drive outputs. The net around a macro may empty
+    /// all its boxes.
+    fn find_late(&self, net: &Net) -> Vec<bool> {
+        let plain = |place: &NetBox| matches!(place.kind, Kind::State | Kind::Capacity);
+        let driven = self.driven.iter().map(|list| !list.is_empty());
+        let mut late: Vec<bool> = net.boxes.iter().zip(driven).map(|(place, driven)| driven || !plain(place)).collect();
+        for (i, gate) in net.gates.iter().enumerate() {
+            for arc in &gate.before {
+                late[arc.place.0 as usize] |= !self.takes_at_once(net, i, arc.place);
+            }
+            for arc in &gate.after {
+                late[arc.place.0 as usize] |= !self.puts_at_once(net, i, arc.place);
+            }
+        }
+        for abort in net.parts.iter().filter_map(|part| part.abort.as_ref()) {
+            late[abort.to.0 as usize] = true;
+        }
+        if net.exit.is_some() { vec![true; late.len()] } else { late }
     }
 
     /// The gates that wait for an input.

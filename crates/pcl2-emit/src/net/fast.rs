@@ -52,12 +52,18 @@ fn is_macro(net: &NetBody<'_, '_, '_>, part: usize) -> bool {
     net.net.parts[part].place.is_some()
 }
 
-/// The tokens with which a box is ready for the gates after it.
+/// The smallest type that holds the tokens with which boxes are ready.
+fn full_type(net: &Net) -> &'static str {
+    let most = (0..net.boxes.len()).map(|i| full(net, i)).max().unwrap_or(0);
+    if most <= u32::from(u16::MAX) { "uint16_t" } else { "int32_t" }
+}
+
+/// The tokens with which a box is ready for the gates after it; 0: it waits first.
 fn full(net: &Net, id: usize) -> u32 {
     match net.boxes[id].kind {
         Kind::Count => net.boxes[id].capacity.unwrap_or(1),
         Kind::State | Kind::Capacity | Kind::Generation(_) | Kind::Macro(_) => 1,
-        Kind::Time(_) | Kind::Action(_) | Kind::Process(_) => u32::MAX,
+        Kind::Time(_) | Kind::Action(_) | Kind::Process(_) => 0,
     }
 }
 
@@ -87,7 +93,7 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
         if generates(place) || (place.initial > 0 && waits(place)) {
             waiting[set] |= bit;
         }
-        if place.initial >= full(net.net, i) {
+        if !waits(place) && place.initial >= full(net.net, i) {
             readied[i].iter().for_each(|(set, gates)| ready[*set] |= gates);
         }
     }
@@ -125,27 +131,31 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
 
 fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let (tag, name) = (net.tag(), &net.body.decl.name);
-    let (readied, driven) = (&net.layout.facts.readied, &net.layout.facts.driven);
+    let facts = &net.layout.facts;
+    let (readied, driven) = (&facts.readied, &facts.driven);
     if net.net.boxes.is_empty() {
         return;
     }
+    // Boxes that only gates at once touch are looked up nowhere.
+    let after = |i: usize| if facts.late[i] { readied[i].as_slice() } else { &[] };
     let drives = net.layout.keeps("drives");
+    let also = if drives { " and outputs" } else { "" };
     let _ = writeln!(
         out,
-        "/* By box of {name}: the tokens that make it ready, and where its gates{} begin. */\nstatic const struct {{\n    int32_t full;\n    uint16_t gates;",
-        if drives { " and outputs" } else { "" }
+        "/* By box of {name}: the tokens that make it ready, 0 if it waits; where its gates{also} begin. */"
     );
-    if drives {
-        out.push_str("    uint16_t outputs;\n");
-    }
+    let _ = writeln!(out, "static const struct {{\n    {} full;\n    uint16_t gates;", full_type(net.net));
+    out.push_str(if drives { "    uint16_t outputs;\n" } else { "" });
     let _ = writeln!(out, "}} {tag}_places[{}] = {{", net.net.boxes.len() + 1);
     let (mut gates, mut outputs) = (0, 0);
     for i in 0..=net.net.boxes.len() {
-        let full = if i < net.net.boxes.len() { full(net.net, i) } else { 0 };
-        let _ = write!(out, "    {{{}, {gates}", i32::try_from(full).unwrap_or(i32::MAX));
+        let known = i < net.net.boxes.len();
+        let _ = write!(out, "    {{{}, {gates}", if known { full(net.net, i) } else { 0 });
         let _ = if drives { writeln!(out, ", {outputs}}},") } else { writeln!(out, "}},") };
-        gates += readied.get(i).map_or(0, Vec::len);
-        outputs += driven.get(i).map_or(0, Vec::len);
+        if known {
+            gates += after(i).len();
+            outputs += driven[i].len();
+        }
     }
     out.push_str("};\n\n");
     if gates > 0 {
@@ -153,7 +163,7 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
             out,
             "static const struct {{\n    uint32_t gates;\n    int32_t set;\n}} {tag}_after[{gates}] = {{"
         );
-        for (set, gates) in readied.iter().flatten() {
+        for (set, gates) in (0..net.net.boxes.len()).flat_map(after) {
             let _ = writeln!(out, "    {{UINT32_C(0x{gates:08x}), {set}}},");
         }
         out.push_str("};\n\n");
@@ -170,6 +180,12 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
 }
 
+/// Whether no box that is looked up is the first one of a gate.
+fn no_gates(net: &NetBody<'_, '_, '_>) -> bool {
+    let facts = &net.layout.facts;
+    facts.readied.iter().zip(&facts.late).all(|(gates, late)| gates.is_empty() || !late)
+}
+
 /// Writes the small functions that gates and boxes use.
 fn moves(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
@@ -180,7 +196,7 @@ fn moves(out: &mut String, net: &NetBody<'_, '_, '_>) {
         [("excite", "|=", "The gates after a box are ready."), ("calm", "&= ~", "The gates after a box are not ready.")]
     {
         let _ = writeln!(out, "/* {says} */\nstatic inline void {tag}_{name}(struct {tag} *self, int32_t place)\n{{");
-        if net.layout.facts.readied.iter().all(Vec::is_empty) {
+        if no_gates(net) {
             out.push_str("    (void)self;\n    (void)place;\n}\n\n");
             continue;
         }
@@ -346,7 +362,7 @@ fn gate_phase(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>
         );
     }
     for word in 0..sets {
-        let _ = writeln!(out, "    {tag}_gates_{}(self, ready[{word}]);", word + 1);
+        let _ = writeln!(out, "    self->net.restless |= {tag}_gates_{}(self, ready[{word}]);", word + 1);
     }
     for (part, _, layout) in net.parts() {
         let _ = writeln!(out, "    {}_gates(&self->{});", layout.tag, member(net, part));
@@ -440,7 +456,7 @@ fn begin_wait(out: &mut String, net: &NetBody<'_, '_, '_>) -> bool {
     }
     let tag = net.tag();
     let by = if net.layout.keeps("by") { "self->net.by[place] << 2" } else { "0" };
-    let _ = writeln!(out, "            if ({tag}_places[place].full == INT32_MAX) {{");
+    let _ = writeln!(out, "            if ({tag}_places[place].full == 0) {{");
     out.push_str("                if (filled != 0) {\n");
     if net.layout.keeps("since") {
         out.push_str("                    self->net.since[place] = self->net.now;\n");

@@ -17,11 +17,12 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
         let tag = net.tag();
         let _ = writeln!(
             out,
-            "/* Tries those of gates {} to {} whose first box is ready and whose input is there, in the order of a scan. */",
+            "/* Tries those of gates {} to {} whose first box is ready and whose input is there, in the\n * order of a scan. Tells whether one fired. */",
             word * GATES + 1,
             word * GATES + gates.len()
         );
-        let _ = writeln!(out, "static void {tag}_gates_{}(struct {tag} *self, uint32_t ready)\n{{", word + 1);
+        let _ = writeln!(out, "static int32_t {tag}_gates_{}(struct {tag} *self, uint32_t ready)\n{{", word + 1);
+        out.push_str("    int32_t fired = 0;\n");
         out.push_str("    while (ready != 0) {\n        const int32_t gate = pcl2_net_lowest(ready);\n");
         out.push_str("        ready &= ready - 1;\n        switch (gate) {\n");
         for (i, gate) in gates.iter().enumerate() {
@@ -29,7 +30,7 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
             self::gate(out, statics, net, gate, word * GATES + i);
             out.push_str("            break;\n        }\n");
         }
-        out.push_str("        default:\n            break;\n        }\n    }\n}\n\n");
+        out.push_str("        default:\n            break;\n        }\n    }\n    return fired;\n}\n\n");
     }
 }
 
@@ -248,7 +249,7 @@ fn fire(
             put(out, net, arc, room, &number, indent);
         }
     }
-    let _ = writeln!(out, "{indent}self->net.restless = 1;");
+    let _ = writeln!(out, "{indent}fired = 1;");
 }
 
 /// The box of a gate whose tokens no gate after it asks for.
