@@ -117,6 +117,9 @@ pub enum Deadlock {
 /// at.
 const REDUCED_WORK: usize = 20_000_000;
 
+/// Walks after that.
+const WALKS: u64 = 5;
+
 /// A net that is explored.
 #[derive(Clone, Debug)]
 pub struct Explorer {
@@ -135,18 +138,30 @@ impl Explorer {
         Explorer { rules, initial, start }
     }
 
-    /// Looks for a dead marking of the interleaving semantics, in at most so many markings.
+    /// Looks for a dead marking of the interleaving semantics, in at most so many markings: by a walk, by all that stubborn
+    /// sets leave, by some more walks.
     pub fn deadlock(&self, limit: usize) -> Deadlock {
+        self.walk(1).unwrap_or_else(|| match self.reduced(limit) {
+            Deadlock::Unknown => self.walk(WALKS).unwrap_or(Deadlock::Unknown),
+            known @ (Deadlock::Reached(_) | Deadlock::Never) => known,
+        })
+    }
+
+    fn walk(&self, walks: u64) -> Option<Deadlock> {
+        let way = walk::to_dead_marking(&self.rules, &self.initial, walks)?;
+        Some(Deadlock::Reached(way.into_iter().map(TransitionId).collect()))
+    }
+
+    /// Looks for a dead marking in what stubborn sets leave of the markings, at most so many.
+    pub fn reduced(&self, limit: usize) -> Deadlock {
         let size = self.rules.places + self.rules.list.len() + 1;
         let stop = Stop { limit: limit.min(REDUCED_WORK / size), at_dead: true };
         let mut found = self.start.clone();
         self.run(&mut found, Kind::Stubborn, &|_| stop, &mut |_| {});
-        let way = found.first_dead.and_then(|number| self.way(&found, Kind::Stubborn, number));
-        match way {
+        match found.first_dead.and_then(|number| self.way(&found, Kind::Stubborn, number)) {
             Some(way) => Deadlock::Reached(way.into_iter().flatten().collect()),
             None if found.complete => Deadlock::Never,
-            None => walk::to_dead_marking(&self.rules, &self.initial)
-                .map_or(Deadlock::Unknown, |way| Deadlock::Reached(way.into_iter().map(TransitionId).collect())),
+            None => Deadlock::Unknown,
         }
     }
 

@@ -4,15 +4,14 @@ use super::game::{Dice, Game};
 use super::rules::Rules;
 use rustc_hash::FxHashMap;
 
-/// Steps of one walk, and of all together.
+/// Steps of one walk.
 const WALK: usize = 20_000;
-const STEPS: usize = 100_000;
 
-/// The transitions of a walk that ends in a dead marking, without what only led back to where it was.
-pub(super) fn to_dead_marking(rules: &Rules, initial: &[u64]) -> Option<Vec<u32>> {
+/// The transitions of one of so many walks that ends in a dead marking, without what only led back to where it was.
+pub(super) fn to_dead_marking(rules: &Rules, initial: &[u64], walks: u64) -> Option<Vec<u32>> {
     let mut game = Game::new(rules, initial);
-    let mut dice = Dice::new(1);
-    for _ in 0..STEPS / WALK {
+    let mut dice = Dice::new(walks);
+    for _ in 0..walks {
         let walk = walk(&mut game, &mut dice);
         if game.enabled.is_empty() {
             let mut ways = [without_loops(rules, &walk), walk].into_iter();

@@ -11,7 +11,7 @@ fn stubborn_sets_find_a_dead_marking_exactly_if_there_is_one() {
     for number in 0..1500 {
         let net = random(&mut dice, if number % 2 == 0 { Flavour::All } else { Flavour::Moving });
         let Some(graph) = plain::explore(&net, Semantics::Interleaving, 3000) else { continue };
-        match Explorer::new(&net).deadlock(usize::MAX) {
+        match Explorer::new(&net).reduced(usize::MAX) {
             Deadlock::Reached(way) => {
                 let scans: Vec<Vec<TransitionId>> = way.iter().map(|transition| vec![*transition]).collect();
                 let end = plain::replay(&net, &scans, Semantics::Interleaving).unwrap();

@@ -181,8 +181,8 @@ pub(crate) fn auto_flight(n: u64) -> Net {
         |takes: &str, puts: &str| all("").iter().map(|u| (format!("{takes}{u}"), format!("{puts}{u}"))).collect();
     let reads = || all("enabled").into_iter().map(|place| (place.clone(), place)).collect::<Vec<_>>();
     let waits = |count: u64| (0..count).map(|_| (String::new(), String::new())).collect::<Vec<_>>();
-    let first: Vec<_> = moves("first_failed", "first_ok");
-    let second: Vec<_> = moves("second_failed", "second_ok");
+    let first: Vec<_> = moves("left_failed", "left_ok");
+    let second: Vec<_> = moves("right_failed", "right_ok");
     start += &process(&mut net, "check", [first, reads(), waits(n), reads()].concat());
     start += &process(&mut net, "test", [second, reads(), waits(2 * n), reads()].concat());
     net.transition("begin", "start", &start);
@@ -194,7 +194,7 @@ fn auto_flight_unit(net: &mut Net, unit: u64) -> String {
     for place in ["off", "on", "steady", "enabled"] {
         net.place(&format!("{place}{unit}"), 0);
     }
-    for device in ["first", "second"] {
+    for device in ["left", "right"] {
         for state in ["ok", "used", "failed"] {
             net.place(&format!("{device}_{state}{unit}"), 0);
         }
@@ -211,11 +211,11 @@ fn auto_flight_unit(net: &mut Net, unit: u64) -> String {
     let steps = vec![
         (at("steady"), at("steady")),
         (at("on"), at("off")),
-        (at("first_ok"), at("first_used")),
-        (at("second_ok"), at("second_used")),
+        (at("left_ok"), at("left_used")),
+        (at("right_ok"), at("right_used")),
     ];
     let waiting = process(net, &format!("engage{unit}_"), steps);
-    ["off", "steady", "enabled", "first_ok", "second_ok"].iter().fold(waiting, |all, place| all + " " + &at(place))
+    ["off", "steady", "enabled", "left_ok", "right_ok"].iter().fold(waiting, |all, place| all + " " + &at(place))
 }
 
 /// A process that waits for its turn, takes and puts in each step, and hands the turn on. The place in which it waits.
