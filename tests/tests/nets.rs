@@ -1078,7 +1078,9 @@ impl Plain {
     }
 
     fn text(&self) -> String {
-        let mut text = "= plain ( int x0, int x1, int x2, int x3 : )\n".to_owned();
+        // Each gate counts its firings.
+        let counts: Vec<String> = (0..self.gates.len()).map(|i| format!("int f{i}")).collect();
+        let mut text = format!("{} = plain ( int x0, int x1, int x2, int x3 : )\n", counts.join(", "));
         for (i, (capacity, start)) in self.capacity.iter().zip(&self.start).enumerate() {
             let marked = if *start > 0 { format!(" MARKED {start}") } else { String::new() };
             let _ = writeln!(text, "CAPACITY p{i} SIZE {capacity}{marked}");
@@ -1098,8 +1100,19 @@ impl Plain {
                 Some(input) => drop(writeln!(text, " IF x{input}")),
                 None => text.push('\n'),
             }
+            let _ = writeln!(text, "DO f{i} = f{i} + 1");
         }
         text + "END\n"
+    }
+
+    /// The state equation: the marking at the start, and the firings times what each brings.
+    fn after(&self, firings: &[i64]) -> Vec<i64> {
+        let mut marking = self.start.clone();
+        for (gate, times) in self.gates.iter().zip(firings) {
+            gate.puts.iter().for_each(|(place, weight)| marking[*place] += weight * times);
+            gate.takes.iter().for_each(|(place, weight)| marking[*place] -= weight * times);
+        }
+        marking
     }
 
     /// One scan from the definition: gates by priority, then in order; what was there at the start and is not taken.
@@ -1134,7 +1147,8 @@ impl Plain {
     }
 }
 
-/// Random nets with weights, capacities, read and inhibitor arcs, priorities and inputs, against the definition.
+/// Random nets with weights, capacities, read and inhibitor arcs, priorities and inputs, against the definition and the
+/// state equation.
 #[test]
 fn random_nets_do_what_the_definition_says() {
     let mut dice = Dice(20_261_129);
@@ -1160,6 +1174,8 @@ fn random_nets_do_what_the_definition_says() {
             let next = net.step(&marking, row);
             moved += usize::from(next != marking);
             marking = next;
+            let firings = (0..net.gates.len()).map(|i| column(&trace, &format!("f{i}"))[scan] as i64);
+            assert_eq!(net.after(&firings.collect::<Vec<i64>>()), marking, "net {number}, scan {scan}: B f\n{text}");
             for (place, tokens) in marking.iter().enumerate() {
                 let found = column(&trace, &format!("plain.p{place}"))[scan];
                 assert!(
