@@ -969,6 +969,43 @@ fn checked(text: &str) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
+/// A function in C of one's own: what it is called with is compared by the C compiler, a missing one is told before.
+#[test]
+fn functions_in_c_are_called_from_nets() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    put(
+        "u.net",
+        "int y = u ( int x : )\nSTATE a MARKED\nOPERATION b DO y = twice ( x : )\nGATE g : a -> b IF x\nEND\n",
+    );
+    put(
+        "twice.fc",
+        "! Twice.\nint q = twice ( int a : )\nBAD L\nEXAMPLE q = 4\n1 x = msi ( : 2 )\n2 q = twice ( x : )\nEND\n",
+    );
+    let ran = |form: &str| {
+        let mut command = pcl2();
+        command.arg("run").arg(folder.path().join("u.net")).arg("--blocks").arg(folder.path());
+        run(command.args(["--steps", "3", "--set", "x=3", "--engine", "cc", "--trace", "-", "--net-form", form]))
+    };
+    let missing = String::from_utf8_lossy(&ran("fast").stderr).into_owned();
+    assert!(missing.contains("P0504") && missing.contains("twice.c"), "{missing}");
+    put(
+        "twice.c",
+        "#include \"pcl2_twice.h\"\nvoid pcl2_twice(struct pcl2_twice *self, double a)\n{\n    self->q = (int)a;\n}\n",
+    );
+    let wrong = String::from_utf8_lossy(&ran("fast").stderr).into_owned();
+    assert!(wrong.contains("twice.c") && wrong.contains("pcl2_twice"), "{wrong}");
+    put(
+        "twice.c",
+        "#include \"pcl2_twice.h\"\nvoid pcl2_twice(struct pcl2_twice *self, int32_t a)\n{\n    self->q = 2 * a;\n}\n",
+    );
+    for form in FORMS {
+        let right = ran(form);
+        assert!(right.status.success(), "{}", String::from_utf8_lossy(&right.stderr));
+        assert_eq!(column(&read(&right.stdout), "y"), [0., 6., 6.], "{form}");
+    }
+}
+
 /// What an operator works a net by is asked for in the head, and named once.
 #[test]
 fn modes_with_mistakes_are_refused() {
