@@ -209,12 +209,10 @@ impl NetFacts {
         }
     }
 
-    /// Boxes whose tokens do not all come and go at once, and those that drive outputs. The net around a macro may empty
-    /// all its boxes.
+    /// Boxes whose tokens do not all come and go at once. The net around a macro may empty all its boxes.
     fn find_late(&self, net: &Net) -> Vec<bool> {
         let plain = |place: &NetBox| matches!(place.kind, Kind::State | Kind::Capacity);
-        let driven = self.driven.iter().map(|list| !list.is_empty());
-        let mut late: Vec<bool> = net.boxes.iter().zip(driven).map(|(place, driven)| driven || !plain(place)).collect();
+        let mut late: Vec<bool> = net.boxes.iter().map(|place| !plain(place)).collect();
         for (i, gate) in net.gates.iter().enumerate() {
             for arc in &gate.before {
                 late[arc.place.0 as usize] |= !self.takes_at_once(net, i, arc.place);
@@ -233,6 +231,11 @@ impl NetFacts {
     pub(crate) fn waiting_for(&self, input: SignalId) -> impl Iterator<Item = usize> {
         let first = self.waiting.partition_point(|(known, _)| *known < input.0);
         self.waiting[first..].iter().take_while(move |(known, _)| *known == input.0).map(|(_, gate)| *gate)
+    }
+
+    /// Whether a box drives outputs and is not looked at when the phase ends: gates count for it.
+    pub(crate) fn counts_at_once(&self, place: usize) -> bool {
+        !self.driven[place].is_empty() && !self.late[place]
     }
 
     /// Whether any gate waits for an input.

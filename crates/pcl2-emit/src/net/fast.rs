@@ -10,7 +10,7 @@ use super::gates;
 use super::layout::part_unit;
 use super::statements;
 use super::waits;
-use super::{INDENT, NetBody, take_arguments};
+use super::{INDENT, NetBody};
 use crate::bodies::Body;
 use crate::expr::{self, Scope};
 use crate::layout::WHOLE;
@@ -154,7 +154,7 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let _ = if drives { writeln!(out, ", {outputs}}},") } else { writeln!(out, "}},") };
         if known {
             gates += after(i).len();
-            outputs += driven[i].len();
+            outputs += if facts.late[i] { driven[i].len() } else { 0 };
         }
     }
     out.push_str("};\n\n");
@@ -169,8 +169,11 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
         out.push_str("};\n\n");
     }
     if outputs > 0 {
-        let list: Vec<String> = driven.iter().flatten().map(usize::to_string).collect();
+        let late = driven.iter().zip(&facts.late).filter(|(_, late)| **late);
+        let list: Vec<String> = late.flat_map(|(list, _)| list).map(usize::to_string).collect();
         let _ = writeln!(out, "static const uint16_t {tag}_drives[{outputs}] = {{{}}};\n", list.join(", "));
+    }
+    if net.layout.facts.driven.iter().any(|list| !list.is_empty()) {
         let _ = writeln!(out, "static const size_t {tag}_outputs[{}] = {{", net.layout.facts.levels.len());
         let scope = Scope { unit: net.body.id, root: "", part: WHOLE };
         for word in &net.layout.facts.levels {
@@ -434,6 +437,9 @@ fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
         }
         out.push_str("        }\n    }\n");
     }
+    if keeps("outputs") {
+        outputs(out, net);
+    }
     if keeps("inside") {
         out.push_str("    self->net.inside = 0;\n");
         for (part, _, layout) in net.parts() {
@@ -476,10 +482,28 @@ fn begin_wait(out: &mut String, net: &NetBody<'_, '_, '_>) -> bool {
     true
 }
 
+/// Outputs whose drivers changed.
+fn outputs(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let (tag, sets) = (net.tag(), net.layout.facts.levels.len().div_ceil(32));
+    let _ = write!(
+        out,
+        "    for (int32_t set = 0; set < {sets}; set++) {{
+        uint32_t changed = self->net.outputs[set];
+        self->net.outputs[set] = 0;
+        while (changed != 0) {{
+            const int32_t output = 32 * set + pcl2_net_lowest(changed);
+            changed &= changed - 1;
+            *(int32_t *)(void *)((char *)self + {tag}_outputs[output]) = self->net.drives[output] > 0;
+        }}
+    }}
+"
+    );
+}
+
 fn show(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
-    let any = net.layout.facts.driven.iter().any(|list| !list.is_empty());
-    if !any {
+    let facts = &net.layout.facts;
+    if facts.driven.iter().zip(&facts.late).all(|(list, late)| list.is_empty() || !late) {
         return;
     }
     let _ = write!(
@@ -692,11 +716,26 @@ fn take_changed(out: &mut String, net: &NetBody<'_, '_, '_>) {
     out.push_str("    if (changed) {\n");
     for (i, signal) in net.body.unit.signals.iter().enumerate() {
         if let Role::Port(port) = signal.role {
-            open(out, net, SignalId(i as u32), port);
+            take_input(out, net, SignalId(i as u32), port);
         }
     }
-    take_arguments(out, net, "        ");
+    super::commands(out, net, net.scope(), "        ");
     out.push_str("    }\n");
+}
+
+fn take_input(out: &mut String, net: &NetBody<'_, '_, '_>, input: SignalId, port: u32) {
+    let waiting = net.layout.facts.waiting_for(input).next().is_some();
+    if !waiting {
+        super::take_argument(out, net, input, port, "        ");
+        return;
+    }
+    let mut place = String::new();
+    expr::signal_base(&mut place, net.body.cx, net.scope(), input);
+    let argument = &net.body.layout.ports[port as usize].0;
+    let _ = writeln!(out, "        if ({place} != {argument}) {{");
+    open(out, net, input, port);
+    super::take_argument(out, net, input, port, "            ");
+    out.push_str("        }\n");
 }
 
 /// Gates that wait for an input, or for its opposite, change sides with it.
@@ -715,11 +754,11 @@ fn open(out: &mut String, net: &NetBody<'_, '_, '_>, input: SignalId, port: u32)
     let mut place = String::new();
     expr::signal_base(&mut place, net.body.cx, net.scope(), input);
     let argument = &net.body.layout.ports[port as usize].0;
-    let _ = writeln!(out, "        if (({argument} != 0) != ({place} != 0)) {{");
+    let _ = writeln!(out, "            if (({argument} != 0) != ({place} != 0)) {{");
     for (set, gates) in sets {
-        let _ = writeln!(out, "            self->net.open[{set}] ^= UINT32_C(0x{gates:08x});");
+        let _ = writeln!(out, "                self->net.open[{set}] ^= UINT32_C(0x{gates:08x});");
     }
-    out.push_str("        }\n");
+    out.push_str("            }\n");
 }
 
 /// What tells that an input differs from the last scan's.

@@ -4,6 +4,7 @@ use super::statements;
 use super::{NetBody, facts, fast};
 use crate::statics::Statics;
 use pcl2_lang::net::{Arc, BoxId, Gate, Kind, Rule, StatementId, Tested};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The gates of one function.
@@ -228,9 +229,10 @@ fn fire(
     for word in &rule.clears {
         let _ = writeln!(out, "{indent}{} = 0;", net.word(word.0 as usize, net.scope()));
     }
+    let mut toggled: BTreeMap<usize, u32> = BTreeMap::new();
     for arc in &gate.before {
         if net.layout.facts.takes_at_once(net.net, index, arc.place) {
-            take_at_once(out, net, arc, indent);
+            take_at_once(out, net, arc, &mut toggled, indent);
         } else {
             take(out, net, arc, indent);
         }
@@ -244,35 +246,63 @@ fn fire(
         let room = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place)).max(0);
         if net.layout.facts.puts_at_once(net.net, index, arc.place) {
             let targets = rule.moves.iter().flat_map(|tokens| &tokens.to).filter(|other| *other == to);
-            put_at_once(out, net, arc, targets.count() == 1, indent);
+            let once = targets.count() == 1;
+            put_at_once(out, net, arc, once.then_some(&mut toggled), indent);
         } else {
             put(out, net, arc, room, &number, indent);
         }
     }
+    for (set, gates) in toggled.into_iter().filter(|(_, gates)| *gates != 0) {
+        let _ = writeln!(out, "{indent}self->net.ready[{set}] ^= UINT32_C(0x{gates:08x});");
+    }
     let _ = writeln!(out, "{indent}fired = 1;");
 }
 
+/// Gates whose first box is this one become ready, or are no more: all of them are on one side.
+fn toggle(toggled: &mut BTreeMap<usize, u32>, net: &NetBody<'_, '_, '_>, place: BoxId) {
+    for (set, gates) in &net.layout.facts.readied[place.0 as usize] {
+        *toggled.entry(*set).or_default() ^= gates;
+    }
+}
+
 /// The box of a gate whose tokens no gate after it asks for.
-fn take_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {
+fn take_at_once(
+    out: &mut String,
+    net: &NetBody<'_, '_, '_>,
+    arc: &Arc,
+    toggled: &mut BTreeMap<usize, u32>,
+    indent: &str,
+) {
     let name = net.place(arc.place);
     if net.net.place(arc.place).capacity == Some(1) {
         let _ = writeln!(out, "{indent}self->box[{name}] = 0;");
-        ready(out, net, arc.place, "&= ~", indent);
+        toggle(toggled, net, arc.place);
+        shows(out, net, arc.place, "-=", indent);
     } else {
         let _ = writeln!(out, "{indent}self->box[{name}] -= {};", weight(arc.weight));
         let _ = writeln!(out, "{indent}if (self->box[{name}] == 0) {{");
-        ready(out, net, arc.place, "&= ~", &format!("{indent}    "));
+        let inner = format!("{indent}    ");
+        ready(out, net, arc.place, "&= ~", &inner);
+        shows(out, net, arc.place, "-=", &inner);
         let _ = writeln!(out, "{indent}}}");
     }
-    shows(out, net, arc.place, indent);
 }
 
-/// A box of one token, which no gate after it asks for. `once`: the rule puts no other token there.
-fn put_at_once(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, once: bool, indent: &str) {
-    let sign = if once { "=" } else { "+=" };
+/// A box of one token, which no gate after it asks for. Without `toggled` the rule puts another token there, too.
+fn put_at_once(
+    out: &mut String,
+    net: &NetBody<'_, '_, '_>,
+    arc: &Arc,
+    toggled: Option<&mut BTreeMap<usize, u32>>,
+    indent: &str,
+) {
+    let sign = if toggled.is_some() { "=" } else { "+=" };
     let _ = writeln!(out, "{indent}self->box[{}] {sign} {};", net.place(arc.place), weight(arc.weight));
-    ready(out, net, arc.place, "|= ", indent);
-    shows(out, net, arc.place, indent);
+    match toggled {
+        Some(toggled) => toggle(toggled, net, arc.place),
+        None => ready(out, net, arc.place, "|= ", indent),
+    }
+    shows(out, net, arc.place, "+=", indent);
 }
 
 /// Gates whose first box is this one become ready, or are no more, from the next scan on.
@@ -282,9 +312,16 @@ fn ready(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str
     }
 }
 
-/// A box that drives outputs is looked at when the phase ends.
-fn shows(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, indent: &str) {
-    if !net.layout.facts.driven[place.0 as usize].is_empty() {
+/// A box that drives outputs counts among their drivers, or no more; the outputs follow when the phase ends.
+fn shows(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str, indent: &str) {
+    let facts = &net.layout.facts;
+    let driven = &facts.driven[place.0 as usize];
+    if facts.counts_at_once(place.0 as usize) {
+        for output in driven {
+            let _ = writeln!(out, "{indent}self->net.drives[{output}] {change} 1;");
+            let _ = writeln!(out, "{indent}pcl2_net_add(self->net.outputs, {output});");
+        }
+    } else if !driven.is_empty() {
         let _ = writeln!(out, "{indent}pcl2_net_add(self->net.touched, {});", net.place(place));
     }
 }

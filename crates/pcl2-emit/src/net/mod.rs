@@ -230,18 +230,21 @@ pub(crate) fn top(out: &mut String, statics: &mut Statics, cx: &Context<'_>, sco
 /// Takes the arguments in: they stay until the next scan.
 fn take_arguments(out: &mut String, net: &NetBody<'_, '_, '_>, indent: &str) {
     for (i, signal) in net.body.unit.signals.iter().enumerate() {
-        let Role::Port(port) = signal.role else {
-            continue;
-        };
-        let id = SignalId(i as u32);
-        let to = |out: &mut String| expr::signal_base(out, net.body.cx, net.scope(), id);
-        let argument = &net.body.layout.ports[port as usize].0;
-        calls::assign(out, indent, signal.ty, to, |out| {
-            out.push_str(argument);
-            if signal.ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) }
-        });
+        if let Role::Port(port) = signal.role {
+            take_argument(out, net, SignalId(i as u32), port, indent);
+        }
     }
     commands(out, net, net.scope(), indent);
+}
+
+fn take_argument(out: &mut String, net: &NetBody<'_, '_, '_>, input: SignalId, port: u32, indent: &str) {
+    let ty = net.body.unit.signal(input).ty;
+    let to = |out: &mut String| expr::signal_base(out, net.body.cx, net.scope(), input);
+    let argument = &net.body.layout.ports[port as usize].0;
+    calls::assign(out, indent, ty, to, |out| {
+        out.push_str(argument);
+        if ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) }
+    });
 }
 
 /// Commands go to the words that gates clear, and the mode to one of its own.
