@@ -228,10 +228,14 @@ fn changed_nets_keep_their_lines() {
     none(&complaints);
 }
 
-/// The nets of the page on nets and those of the tests stand in the layout.
+/// The nets of the page on nets, of the examples and of the tests stand in the layout, but for those that a generator
+/// writes.
 #[test]
 fn nets_are_laid_out_so() {
-    let ours = nets().into_iter().filter(|(name, _)| name.contains("nets.md") || name.ends_with(".net"));
+    let made = ["agv_system/agv.net", "agv_system/agvs.net", "agv_system/travel.net"];
+    let hand = |name: &str| !made.iter().any(|made| name.ends_with(made));
+    let ours =
+        nets().into_iter().filter(|(name, _)| (name.contains("nets.md") || name.ends_with(".net")) && hand(name));
     none(&ours.filter(|(_, bytes)| formatted_net(bytes) != *bytes).map(|(name, _)| name).collect::<Vec<_>>());
 }
 

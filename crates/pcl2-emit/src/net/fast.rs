@@ -148,15 +148,16 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
     out.push_str(if drives { "    uint16_t outputs;\n" } else { "" });
     let _ = writeln!(out, "}} {tag}_places[{}] = {{", net.net.boxes.len() + 1);
     let (mut gates, mut outputs) = (0, 0);
-    for i in 0..=net.net.boxes.len() {
-        let known = i < net.net.boxes.len();
-        let _ = write!(out, "    {{{}, {gates}", if known { full(net.net, i) } else { 0 });
-        let _ = if drives { writeln!(out, ", {outputs}}},") } else { writeln!(out, "}},") };
-        if known {
-            gates += after(i).len();
-            outputs += if facts.late[i] { driven[i].len() } else { 0 };
-        }
+    let row = |out: &mut String, full: u32, gates: usize, outputs: usize| {
+        let outputs = if drives { format!(", {outputs}") } else { String::new() };
+        let _ = writeln!(out, "    {{{full}, {gates}{outputs}}},");
+    };
+    for (i, driven) in driven.iter().enumerate() {
+        row(out, full(net.net, i), gates, outputs);
+        gates += after(i).len();
+        outputs += if facts.late[i] { driven.len() } else { 0 };
     }
+    row(out, 0, gates, outputs);
     out.push_str("};\n\n");
     if gates > 0 {
         let _ = writeln!(

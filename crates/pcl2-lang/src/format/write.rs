@@ -11,6 +11,9 @@ use std::ops::Range;
 const WIDEST_OUTPUTS: usize = 32;
 /// Lines that are longer do not move the comments of other lines.
 const WIDEST_COMMENTED: usize = 72;
+/// Lists that begin further right go on below the start of the statement.
+const WIDEST_START: usize = 80;
+const HANGING: usize = 4;
 /// Blanks before an aligned comment.
 const BEFORE_COMMENT: usize = 2;
 
@@ -203,10 +206,11 @@ impl Body<'_> {
         let mut rows = Vec::new();
         let mut row = Row { text: self.head.to_owned(), ..Row::default() };
         let mut indent = 0;
+        let mut far = false;
         for (i, piece) in self.pieces.iter().enumerate() {
             let commented = !piece.comments.is_empty();
             let full = fill && self.around[i].may_break && row.text.len() + 1 + self.rigid(i) > WIDTH;
-            if i > 0 && (breaks[i] || commented || full) {
+            if i > 0 && (breaks[i] || commented || full || std::mem::take(&mut far)) {
                 self.comments(piece, indent, &mut row, &mut rows);
                 rows.push(std::mem::take(&mut row));
                 let hang = if self.around[i].colon { 2 } else { 0 };
@@ -218,6 +222,8 @@ impl Body<'_> {
             if indent == 0 && piece.token == Token::LeftParen {
                 let wide = self.around.get(i + 1).is_some_and(|around| around.blank);
                 indent = row.text.len() + usize::from(wide);
+                far = indent > WIDEST_START && breaks.iter().any(|breaks| *breaks);
+                indent = if far { HANGING } else { indent };
             }
         }
         rows.push(row);
