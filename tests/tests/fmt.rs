@@ -181,8 +181,11 @@ fn judge_net(name: &str, bytes: &[u8], complaints: &mut Vec<String>) -> bool {
     };
     let once = formatted_net(bytes);
     let shown = String::from_utf8_lossy(&once);
-    if formatted_net(&once) != once {
-        complaints.push(format!("{name}: not stable:\n{shown}"));
+    let twice = formatted_net(&once);
+    if twice != once {
+        let again = String::from_utf8_lossy(&twice);
+        let lines = shown.lines().zip(again.lines()).find(|(first, second)| first != second);
+        complaints.push(format!("{name}: not stable, {lines:?}:\n{shown}"));
     }
     if lines_of_net(&once) != Some(before) {
         complaints.push(format!("{name}: another meaning:\n{}\n{shown}", String::from_utf8_lossy(bytes)));

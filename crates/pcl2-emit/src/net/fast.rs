@@ -119,14 +119,20 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
 pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     tables(out, net);
     inputs(out, net);
-    moves(out, net);
-    macro_functions(out, net);
-    waits::function(out, statics, net);
-    boxes(out, statics, net);
-    gates::functions(out, statics, net);
-    gate_phase(out, statics, net);
-    commit(out, net);
-    levels(out, net);
+    let mut rest = String::new();
+    macro_functions(&mut rest, net);
+    waits::function(&mut rest, statics, net);
+    boxes(&mut rest, statics, net);
+    gates::functions(&mut rest, statics, net);
+    gate_phase(&mut rest, statics, net);
+    commit(&mut rest, net);
+    levels(&mut rest, net);
+    for (name, text) in moves(net) {
+        if rest.contains(&format!("{}_{name}(", net.tag())) {
+            out.push_str(&text);
+        }
+    }
+    out.push_str(&rest);
 }
 
 fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
@@ -190,27 +196,26 @@ fn no_gates(net: &NetBody<'_, '_, '_>) -> bool {
     facts.readied.iter().zip(&facts.late).all(|(gates, late)| gates.is_empty() || !late)
 }
 
-/// Writes the small functions that gates and boxes use.
-fn moves(out: &mut String, net: &NetBody<'_, '_, '_>) {
+/// The small functions that gates and boxes use, by name.
+fn moves(net: &NetBody<'_, '_, '_>) -> [(&'static str, String); 5] {
     let tag = net.tag();
-    if net.net.boxes.is_empty() {
-        return;
-    }
-    for (name, sets, says) in
-        [("excite", "|=", "The gates after a box are ready."), ("calm", "&= ~", "The gates after a box are not ready.")]
-    {
-        let _ = writeln!(out, "/* {says} */\nstatic inline void {tag}_{name}(struct {tag} *self, int32_t place)\n{{");
-        if no_gates(net) {
-            out.push_str("    (void)self;\n    (void)place;\n}\n\n");
-            continue;
-        }
-        let sets = if sets == "|=" { "|= " } else { "&= ~" };
-        let _ =
-            writeln!(out, "    for (int32_t i = {tag}_places[place].gates; i < {tag}_places[place + 1].gates; i++) {{");
-        let _ = writeln!(out, "        self->net.ready[{tag}_after[i].set] {sets}{tag}_after[i].gates;\n    }}\n}}\n");
-    }
-    let _ = write!(
-        out,
+    let ready = |name: &str, change: &str, says: &str| {
+        let head = format!("/* {says} */\nstatic inline void {tag}_{name}(struct {tag} *self, int32_t place)\n{{\n");
+        let body = match no_gates(net) {
+            true => "    (void)self;\n    (void)place;\n".to_owned(),
+            false => format!(
+                "    for (int32_t i = {tag}_places[place].gates; i < {tag}_places[place + 1].gates; i++) {{
+        self->net.ready[{tag}_after[i].set] {change}{tag}_after[i].gates;
+    }}
+"
+            ),
+        };
+        format!("{head}{body}}}\n\n")
+    };
+    let (used, by) = (net.layout.keeps("used"), net.layout.keeps("by"));
+    let (room, rooms) = if used { (", int32_t room", "    self->net.used[place] += room;\n") } else { ("", "") };
+    let (gate, gates) = if by { (", int32_t gate", "    self->net.by[place] = gate;\n") } else { ("", "") };
+    let take = format!(
         "/* Tokens leave a box at the end of the gate phase. */
 static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
 {{
@@ -218,20 +223,20 @@ static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
     pcl2_net_add(self->net.touched, place);
 }}
 
-/* Tokens come into a box at the end of the gate phase. */
-static inline void {tag}_put(struct {tag} *self, int32_t place, int32_t tokens"
+"
     );
-    let (used, by) = (net.layout.keeps("used"), net.layout.keeps("by"));
-    out.push_str(if used { ", int32_t room" } else { "" });
-    out.push_str(if by { ", int32_t gate" } else { "" });
-    out.push_str(")\n{\n    self->net.filled[place] += tokens;\n");
-    out.push_str(if used { "    self->net.used[place] += room;\n" } else { "" });
-    out.push_str(if by { "    self->net.by[place] = gate;\n" } else { "" });
-    out.push_str("    pcl2_net_add(self->net.touched, place);\n}\n\n");
-    if net.layout.facts.tracks() {
-        let _ = write!(
-            out,
-            "/* Who wrote an output. */
+    let put = format!(
+        "/* Tokens come into a box at the end of the gate phase. */
+static inline void {tag}_put(struct {tag} *self, int32_t place, int32_t tokens{room}{gate})
+{{
+    self->net.filled[place] += tokens;
+{rooms}{gates}    pcl2_net_add(self->net.touched, place);
+}}
+
+"
+    );
+    let writes = format!(
+        "/* Who wrote an output. */
 static inline struct pcl2_net_writes {tag}_writes(struct {tag} *self, int32_t output)
 {{
     const struct pcl2_net_writes writes = {{&self->net.wrote[output], &self->status, &self->net.conflicts}};
@@ -239,8 +244,14 @@ static inline struct pcl2_net_writes {tag}_writes(struct {tag} *self, int32_t ou
 }}
 
 "
-        );
-    }
+    );
+    [
+        ("excite", ready("excite", "|= ", "The gates after a box are ready.")),
+        ("calm", ready("calm", "&= ~", "The gates after a box are not ready.")),
+        ("take", take),
+        ("put", put),
+        ("writes", writes),
+    ]
 }
 
 /// Writes what the net around a macro calls.
@@ -252,10 +263,12 @@ fn macro_functions(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let (entry, exit) = (net.place(entry), net.place(exit));
     let room = if net.layout.keeps("used") { ", 1" } else { "" };
     let by = if net.layout.keeps("by") { ", 0" } else { "" };
-    let _ = write!(
-        out,
-        "/* Whether nothing is marked, so that a token may enter. */
-static inline int32_t {tag}_vacant(const struct {tag} *self)
+    let uses = net.layout.macro_uses;
+    if uses.asked {
+        let _ = write!(
+            out,
+            "/* Whether nothing is marked, so that a token may enter. */
+static int32_t {tag}_vacant(const struct {tag} *self)
 {{
     int32_t tokens = 0;
     for (int32_t place = 0; place < {n}; place++) {{
@@ -264,16 +277,28 @@ static inline int32_t {tag}_vacant(const struct {tag} *self)
     return tokens == 0;
 }}
 
-/* A token enters. */
-static inline void {tag}_enter(struct {tag} *self)
+"
+        );
+    }
+    if uses.entered {
+        let _ = write!(
+            out,
+            "/* A token enters. */
+static void {tag}_enter(struct {tag} *self)
 {{
     {tag}_put(self, {entry}, 1{room}{by});
     self->net.go = 1;
     self->net.restless = 1;
 }}
 
-/* The token leaves. */
-static inline void {tag}_leave(struct {tag} *self)
+"
+        );
+    }
+    if uses.left {
+        let _ = write!(
+            out,
+            "/* The token leaves. */
+static void {tag}_leave(struct {tag} *self)
 {{
     self->net.taken[{exit}] = self->box[{exit}];
     pcl2_net_add(self->net.touched, {exit});
@@ -281,8 +306,16 @@ static inline void {tag}_leave(struct {tag} *self)
     self->net.restless = 1;
 }}
 
-/* Every token inside goes. */
-static inline void {tag}_empty(struct {tag} *self)
+"
+        );
+    }
+    if !uses.emptied {
+        return;
+    }
+    let _ = write!(
+        out,
+        "/* Every token inside goes. */
+static void {tag}_empty(struct {tag} *self)
 {{
     for (int32_t place = 0; place < {n}; place++) {{
         self->net.taken[place] = self->box[place];

@@ -207,10 +207,12 @@ impl Body<'_> {
         let mut row = Row { text: self.head.to_owned(), ..Row::default() };
         let mut indent = 0;
         let mut far = false;
+        let broken = breaks.iter().any(|breaks| *breaks) || self.pieces.iter().any(|piece| !piece.comments.is_empty());
         for (i, piece) in self.pieces.iter().enumerate() {
             let commented = !piece.comments.is_empty();
             let full = fill && self.around[i].may_break && row.text.len() + 1 + self.rigid(i) > WIDTH;
-            if i > 0 && (breaks[i] || commented || full || std::mem::take(&mut far)) {
+            let first = std::mem::take(&mut far);
+            if i > 0 && (breaks[i] || commented || full || first) {
                 self.comments(piece, indent, &mut row, &mut rows);
                 rows.push(std::mem::take(&mut row));
                 let hang = if self.around[i].colon { 2 } else { 0 };
@@ -222,7 +224,7 @@ impl Body<'_> {
             if indent == 0 && piece.token == Token::LeftParen {
                 let wide = self.around.get(i + 1).is_some_and(|around| around.blank);
                 indent = row.text.len() + usize::from(wide);
-                far = indent > WIDEST_START && breaks.iter().any(|breaks| *breaks);
+                far = indent > WIDEST_START && broken;
                 indent = if far { HANGING } else { indent };
             }
         }
