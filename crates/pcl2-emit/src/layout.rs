@@ -8,6 +8,7 @@ use crate::net::layout::{self as nets, NetLayout};
 use crate::shape::{self, Cold, Extent, Form, Key, Shape};
 use pcl2_lang::decl::{Direction, Step};
 use pcl2_lang::model;
+use pcl2_lang::net::Net;
 use pcl2_lang::program::{
     Block, DeclId, ImageId, Param, Program, Role, Section, SectionKind, Signal, SignalId, Source, Unit, UnitId,
 };
@@ -151,14 +152,35 @@ pub(crate) struct Layout<'a> {
 /// Members of the program's struct that no block can have.
 const RESERVED: &[&str] = &["in", "out", "cold", "health", "scan", "work", "iwork", "twork"];
 /// Names inside a composite's functions that no block, port or parameter can have.
-const RESERVED_INSIDE: &[&str] =
-    &["T", "bad", "cold", "hot", "left", "net", "nets", "self", "statement", "status", "iwork", "twork", "work"];
+const RESERVED_INSIDE: &[&str] = &[
+    "T",
+    "bad",
+    "changed",
+    "cold",
+    "hot",
+    "left",
+    "net",
+    "nets",
+    "self",
+    "statement",
+    "status",
+    "iwork",
+    "twork",
+    "work",
+];
 
 /// What stands behind the program's name in names that are always there.
 const RESERVED_TAGS: &[&str] = &[
     "init", "step", "tune", "in", "out", "cold", "map", "points", "rows", "marks", "codes", "table", "initial",
     "status", "statuses", "fault",
 ];
+
+/// What stands behind the tag of a composite, or of a net, in names of what is made of it.
+fn behind_tag(net: Option<&Net>) -> Vec<String> {
+    let mut suffixes: Vec<String> = ["init", "tune", "check"].map(str::to_owned).into();
+    suffixes.extend(net.into_iter().flat_map(nets::suffixes));
+    suffixes
+}
 
 /// Lays a program out.
 pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>], form: NetForm) -> Layout<'a> {
@@ -227,7 +249,8 @@ impl<'a, 'c> Builder<'a, 'c> {
         let stores = stores_inside(unit, self.codes, net.is_some());
         let members = self.members(unit, &stores, &mut namer, |_| WHOLE);
         let (stores, slots) = slots(unit, stores, &mut namer, &members, &ports);
-        let tag = self.tag(&decl.name);
+        let tag = format!("{}_{}", self.name, decl.name);
+        let tag = self.layout.tags.family(&tag, &behind_tag(net));
         let net = net.map(|net| {
             let scratch = std::mem::take(&mut facts.scratch);
             let boxes = net.boxes.iter().map(|place| self.layout.tags.made(&format!("{tag}_{}", place.name))).collect();

@@ -117,6 +117,24 @@ impl<'a> Namer<'a> {
         if self.used.insert(Cow::Owned(name.clone())) { name } else { self.numbered(&name).into_owned() }
     }
 
+    /// As [`Namer::made`], for a name that begins others: none of these stands behind it in a name that is taken. They are
+    /// taken with it.
+    pub(crate) fn family(&mut self, text: &str, suffixes: &[String]) -> String {
+        let wanted = legal(text, "b").into_owned();
+        let names = |name: &str| -> Vec<String> { suffixes.iter().map(|suffix| format!("{name}_{suffix}")).collect() };
+        let taken =
+            |name: &str| self.used.contains(name) || names(name).iter().any(|name| self.used.contains(name.as_str()));
+        let mut name = wanted.clone();
+        let mut number = 2;
+        while taken(&name) {
+            name = format!("{wanted}_{number}");
+            number += 1;
+        }
+        self.used.extend(names(&name).into_iter().map(Cow::Owned));
+        self.used.insert(Cow::Owned(name.clone()));
+        name
+    }
+
     fn take(&mut self, wanted: Cow<'a, str>) -> Cow<'a, str> {
         if self.used.insert(wanted.clone()) {
             return wanted;
@@ -167,6 +185,16 @@ mod tests {
         for (text, name) in pairs {
             assert_eq!(namer.name(text), name, "{text}");
         }
+    }
+
+    #[test]
+    fn families_keep_apart() {
+        let mut namer = Namer::new(&["n_tune"]);
+        let suffixes = ["init", "tune"].map(str::to_owned);
+        assert_eq!(namer.family("n", &suffixes), "n_2");
+        assert_eq!(namer.made("n_2_init"), "n_2_init_2");
+        assert_eq!(namer.family("n_2", &suffixes), "n_2_2");
+        assert_eq!(namer.family("m", &suffixes), "m");
     }
 
     #[test]

@@ -744,8 +744,8 @@ static void net_put(struct pcl2_net *net, int32_t from, const pcl2_net_word *arc
     if (box[1] != 0) {
         net_store(net, source, box, box[0] == PCL2_NET_MACRO ? 0 : net_left(net, b) + net->filled[b]);
     }
-    net->filled[b] += arc[1];
-    net->used[b] += excess > 0 ? excess : 0;
+    net->filled[b] = pcl2_add_i(net->filled[b], arc[1]);
+    net->used[b] = pcl2_add_i(net->used[b], excess > 0 ? excess : 0);
     net->by[b] = gate;
     if (box[0] == PCL2_NET_MACRO) {
         struct pcl2_net *part = net_inside(net, box[8]);

@@ -119,20 +119,16 @@ pub(super) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
 pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     tables(out, net);
     inputs(out, net);
-    let mut rest = String::new();
-    macro_functions(&mut rest, net);
-    waits::function(&mut rest, statics, net);
-    boxes(&mut rest, statics, net);
-    gates::functions(&mut rest, statics, net);
-    gate_phase(&mut rest, statics, net);
-    commit(&mut rest, net);
-    levels(&mut rest, net);
-    for (name, text) in moves(net) {
-        if rest.contains(&format!("{}_{name}(", net.tag())) {
-            out.push_str(&text);
-        }
-    }
-    out.push_str(&rest);
+    let mut text = String::new();
+    macro_functions(&mut text, net);
+    waits::function(&mut text, statics, net);
+    boxes(&mut text, statics, net);
+    gates::functions(&mut text, statics, net);
+    gate_phase(&mut text, statics, net);
+    commit(&mut text, net);
+    levels(&mut text, net);
+    moves(out, net, &text);
+    out.push_str(&text);
 }
 
 fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
@@ -196,27 +192,24 @@ fn no_gates(net: &NetBody<'_, '_, '_>) -> bool {
     facts.readied.iter().zip(&facts.late).all(|(gates, late)| gates.is_empty() || !late)
 }
 
-/// The small functions that gates and boxes use, by name.
-fn moves(net: &NetBody<'_, '_, '_>) -> [(&'static str, String); 5] {
+/// Writes those of the small functions that the functions of gates and boxes use.
+fn moves(out: &mut String, net: &NetBody<'_, '_, '_>, users: &str) {
     let tag = net.tag();
-    let ready = |name: &str, change: &str, says: &str| {
-        let head = format!("/* {says} */\nstatic inline void {tag}_{name}(struct {tag} *self, int32_t place)\n{{\n");
-        let body = match no_gates(net) {
-            true => "    (void)self;\n    (void)place;\n".to_owned(),
-            false => format!(
-                "    for (int32_t i = {tag}_places[place].gates; i < {tag}_places[place + 1].gates; i++) {{
-        self->net.ready[{tag}_after[i].set] {change}{tag}_after[i].gates;
-    }}
-"
-            ),
-        };
-        format!("{head}{body}}}\n\n")
-    };
-    let (used, by) = (net.layout.keeps("used"), net.layout.keeps("by"));
-    let (room, rooms) = if used { (", int32_t room", "    self->net.used[place] += room;\n") } else { ("", "") };
-    let (gate, gates) = if by { (", int32_t gate", "    self->net.by[place] = gate;\n") } else { ("", "") };
-    let take = format!(
-        "/* Tokens leave a box at the end of the gate phase. */
+    let used = |name: &str| users.contains(&format!(" {tag}_{name}("));
+    for (name, change, says) in [
+        ("excite", "|= ", "The gates after a box are ready."),
+        ("calm", "&= ~", "The gates after a box are not ready."),
+    ] {
+        if used(name) {
+            let _ =
+                writeln!(out, "/* {says} */\nstatic inline void {tag}_{name}(struct {tag} *self, int32_t place)\n{{");
+            change_ready(out, net, change);
+        }
+    }
+    if used("take") {
+        let _ = write!(
+            out,
+            "/* Tokens leave a box at the end of the gate phase. */
 static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
 {{
     self->net.taken[place] += tokens;
@@ -224,19 +217,15 @@ static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
 }}
 
 "
-    );
-    let put = format!(
-        "/* Tokens come into a box at the end of the gate phase. */
-static inline void {tag}_put(struct {tag} *self, int32_t place, int32_t tokens{room}{gate})
-{{
-    self->net.filled[place] += tokens;
-{rooms}{gates}    pcl2_net_add(self->net.touched, place);
-}}
-
-"
-    );
-    let writes = format!(
-        "/* Who wrote an output. */
+        );
+    }
+    if used("put") {
+        put(out, net);
+    }
+    if net.layout.facts.tracks() {
+        let _ = write!(
+            out,
+            "/* Who wrote an output. */
 static inline struct pcl2_net_writes {tag}_writes(struct {tag} *self, int32_t output)
 {{
     const struct pcl2_net_writes writes = {{&self->net.wrote[output], &self->status, &self->net.conflicts}};
@@ -254,6 +243,42 @@ static inline struct pcl2_net_writes {tag}_writes(struct {tag} *self, int32_t ou
     ]
 }
 
+fn change_ready(out: &mut String, net: &NetBody<'_, '_, '_>, change: &str) {
+    if no_gates(net) {
+        out.push_str("    (void)self;\n    (void)place;\n}\n\n");
+        return;
+    }
+    let tag = net.tag();
+    let _ = writeln!(out, "    for (int32_t i = {tag}_places[place].gates; i < {tag}_places[place + 1].gates; i++) {{");
+    let _ = writeln!(out, "        self->net.ready[{tag}_after[i].set] {change}{tag}_after[i].gates;\n    }}\n}}\n");
+}
+
+fn put(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let tag = net.tag();
+    let _ = write!(
+        out,
+        "/* Tokens come into a box at the end of the gate phase. */
+static inline void {tag}_put(struct {tag} *self, int32_t place, int32_t tokens"
+    );
+    let (used, by) = (net.layout.keeps("used"), net.layout.keeps("by"));
+    out.push_str(if used { ", int32_t room" } else { "" });
+    out.push_str(if by { ", int32_t gate" } else { "" });
+    out.push_str(")\n{\n");
+    // Only a box without a limit can get more tokens than an int holds.
+    let unlimited = net.net.boxes.iter().any(|place| place.capacity.is_none());
+    for (member, tokens) in
+        [("filled", "tokens"), ("used", "room")].into_iter().filter(|(name, _)| net.layout.keeps(name))
+    {
+        let _ = if unlimited {
+            writeln!(out, "    self->net.{member}[place] = pcl2_add_i(self->net.{member}[place], {tokens});")
+        } else {
+            writeln!(out, "    self->net.{member}[place] += {tokens};")
+        };
+    }
+    out.push_str(if by { "    self->net.by[place] = gate;\n" } else { "" });
+    out.push_str("    pcl2_net_add(self->net.touched, place);\n}\n\n");
+}
+
 /// Writes what the net around a macro calls.
 fn macro_functions(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let (Some(entry), Some(exit)) = (net.net.entry, net.net.exit) else {
@@ -261,14 +286,14 @@ fn macro_functions(out: &mut String, net: &NetBody<'_, '_, '_>) {
     };
     let (tag, n) = (net.tag(), net.net.boxes.len());
     let (entry, exit) = (net.place(entry), net.place(exit));
+    let moves = net.layout.moves;
     let room = if net.layout.keeps("used") { ", 1" } else { "" };
     let by = if net.layout.keeps("by") { ", 0" } else { "" };
-    let uses = net.layout.macro_uses;
-    if uses.asked {
+    if moves.asked {
         let _ = write!(
             out,
             "/* Whether nothing is marked, so that a token may enter. */
-static int32_t {tag}_vacant(const struct {tag} *self)
+static inline int32_t {tag}_vacant(const struct {tag} *self)
 {{
     int32_t tokens = 0;
     for (int32_t place = 0; place < {n}; place++) {{
@@ -280,11 +305,11 @@ static int32_t {tag}_vacant(const struct {tag} *self)
 "
         );
     }
-    if uses.entered {
+    if moves.entered {
         let _ = write!(
             out,
             "/* A token enters. */
-static void {tag}_enter(struct {tag} *self)
+static inline void {tag}_enter(struct {tag} *self)
 {{
     {tag}_put(self, {entry}, 1{room}{by});
     self->net.go = 1;
@@ -294,11 +319,11 @@ static void {tag}_enter(struct {tag} *self)
 "
         );
     }
-    if uses.left {
+    if moves.left {
         let _ = write!(
             out,
             "/* The token leaves. */
-static void {tag}_leave(struct {tag} *self)
+static inline void {tag}_leave(struct {tag} *self)
 {{
     self->net.taken[{exit}] = self->box[{exit}];
     pcl2_net_add(self->net.touched, {exit});
@@ -309,13 +334,17 @@ static void {tag}_leave(struct {tag} *self)
 "
         );
     }
-    if !uses.emptied {
-        return;
+    if moves.emptied {
+        empty(out, net);
     }
+}
+
+fn empty(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let (tag, n) = (net.tag(), net.net.boxes.len());
     let _ = write!(
         out,
         "/* Every token inside goes. */
-static void {tag}_empty(struct {tag} *self)
+static inline void {tag}_empty(struct {tag} *self)
 {{
     for (int32_t place = 0; place < {n}; place++) {{
         self->net.taken[place] = self->box[place];

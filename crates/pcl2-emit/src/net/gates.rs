@@ -42,6 +42,7 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
     if !sole && !enabled.is_empty() {
         let _ = writeln!(out, "{INDENT}if (!({})) {{\n{INDENT}    break;\n{INDENT}}}", enabled.join(" && "));
     }
+    let mut permits = None;
     for rule in &gate.rules {
         if !sole {
             statements::comment(out, INDENT, net.body.cx.sources.text(rule.span));
@@ -56,9 +57,12 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
         let condition = rule.condition.filter(|condition| !sole || asked(condition));
         tests.extend(condition.map(|condition| statements::condition(out, statics, net, condition, INDENT)));
         let mut allowed = room(net, gate, rule);
-        for permit in gate.permits.iter().filter(|permit| asked(&permit.condition)) {
-            allowed.push(statements::condition(out, statics, net, permit.condition, INDENT));
-        }
+        // What permissives compute on their way is there once for all rules.
+        let permits = permits.get_or_insert_with(|| {
+            let asked = gate.permits.iter().filter(|permit| asked(&permit.condition));
+            asked.map(|permit| statements::condition(out, statics, net, permit.condition, INDENT)).collect::<Vec<_>>()
+        });
+        allowed.extend(permits.iter().cloned());
         if sole {
             tests.append(&mut allowed);
         }

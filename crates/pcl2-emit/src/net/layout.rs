@@ -1,12 +1,13 @@
 //! What an instance of a net keeps beside its signals, and how its boxes are called in C.
 
 use super::facts::{self, NetFacts};
+use super::gates::GATES;
 use crate::NetForm;
 use crate::facts::Scratch;
 use crate::layout::UnitLayout;
 use crate::shape::{Extent, Field, fields_extent};
 use pcl2_lang::net::table::{self, Table};
-use pcl2_lang::net::{Arc, Gate, Kind, Net, PartId};
+use pcl2_lang::net::{BoxId, Kind, Net, PartId};
 use pcl2_lang::program::{Program, Role, Unit, UnitId};
 use pcl2_lang::types::Width;
 
@@ -43,6 +44,36 @@ pub(crate) struct NetLayout {
     pub(crate) form: NetForm,
     /// Of the fast form: what its code can leave out.
     pub(crate) facts: NetFacts,
+    /// Of a macro: what nets around it do with it.
+    pub(crate) moves: MacroMoves,
+}
+
+/// What nets around a macro do with it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MacroMoves {
+    /// They ask whether it is vacant.
+    pub(crate) asked: bool,
+    /// They put a token into it.
+    pub(crate) entered: bool,
+    /// They take its token.
+    pub(crate) left: bool,
+    /// They empty it.
+    pub(crate) emptied: bool,
+}
+
+impl MacroMoves {
+    fn add(&mut self, outer: &Net, place: BoxId) {
+        for gate in &outer.gates {
+            let (taken, put) = [&gate.before, &gate.after].map(|arcs| arcs.iter().any(|arc| arc.place == place)).into();
+            self.left |= taken;
+            self.entered |= put;
+            self.asked |= put && !taken;
+        }
+        let mut aborts = outer.parts.iter().filter_map(|part| part.abort.as_ref());
+        let target = aborts.any(|abort| abort.to == place);
+        self.entered |= target;
+        self.asked |= target;
+    }
 }
 
 /// What nets do with a macro inside them.
@@ -78,6 +109,19 @@ impl NetLayout {
     pub(crate) fn keeps(&self, name: &str) -> bool {
         self.fields.iter().any(|field| field.name == name)
     }
+}
+
+/// What stands behind the tag of a net in the names of its functions and tables, apart from functions of gates.
+const SUFFIXES: &[&str] = &[
+    "act", "active", "after", "boxes", "calm", "commit", "drives", "duration", "empty", "enter", "excite", "gates",
+    "hands", "inputs", "leave", "levels", "net", "outputs", "places", "put", "scan", "table", "take", "vacant", "wait",
+    "words", "writes",
+];
+
+/// What stands behind the tag of a net in names of what is made of it.
+pub(crate) fn suffixes(net: &Net) -> Vec<String> {
+    let gates = (1..=net.gates.len().div_ceil(GATES)).map(|word| format!("gates_{word}"));
+    SUFFIXES.iter().map(|suffix| (*suffix).to_owned()).chain(gates).collect()
 }
 
 /// The net of a unit.
@@ -127,6 +171,7 @@ pub(crate) fn layout(
 pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) {
     let called = called(program, units);
     let part = forms(program, units, form);
+    macro_moves(program, units);
     for index in 1..units.len() {
         let unit = &program.units[index];
         let (Some(net), Some(layout)) = (net_of(program, unit), units[index].net.as_mut()) else {
@@ -138,6 +183,23 @@ pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetF
             NetForm::Table => table_fields(net, layout),
             NetForm::Fast => fast_fields(net, layout),
         };
+    }
+}
+
+/// Tells macros what nets around them do with them. A net stands before those inside it.
+fn macro_moves(program: &Program, units: &mut [UnitLayout<'_>]) {
+    for (outer, unit) in program.units.iter().enumerate() {
+        let Some(net) = net_of(program, unit).filter(|_| units[outer].used) else {
+            continue;
+        };
+        let emptied = units[outer].net.as_ref().is_some_and(|layout| layout.moves.emptied);
+        for (i, part) in net.parts.iter().enumerate() {
+            let inner = part_unit(unit, net, PartId(i as u32)).and_then(|inner| units[inner.0 as usize].net.as_mut());
+            if let (Some(place), Some(inner)) = (part.place, inner) {
+                inner.moves.add(net, place);
+                inner.moves.emptied |= emptied || part.abort.is_some();
+            }
+        }
     }
 }
 

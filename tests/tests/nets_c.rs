@@ -1,0 +1,124 @@
+//! The C of nets: names that meet, functions that nobody calls, and what random nets do not have.
+
+use pcl2_tests::compilers::{Built, STRICT, check};
+use pcl2_tests::{pcl2, run};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// What stands behind the name of a net in the C of both forms.
+const BEHIND: &str = "act active after boxes calm check commit drives duration empty enter excite gates gates_1 hands init \
+                      inputs leave levels net outputs places put scan table take tune vacant wait words writes";
+
+fn write(folder: &Path, files: &[(&str, &str)]) {
+    for (name, text) in files {
+        fs::write(folder.join(name), text).unwrap();
+    }
+}
+
+/// Builds a program in both forms; compilers have nothing to say about it.
+fn compile(files: &[(&str, &str)]) {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), files);
+    for form in ["fast", "table"] {
+        let built = Built::empty();
+        let program = folder.path().join(files[0].0);
+        let mut command = pcl2();
+        command.arg("build").arg(program).arg("--blocks").arg(folder.path());
+        command.args(["--period", "0.5", "--net-form", form, "-o"]).arg(built.path());
+        check(&mut command);
+        for compiler in ["gcc", "clang"] {
+            built.compile(compiler, &STRICT);
+        }
+    }
+}
+
+/// The trace that all engines and forms give.
+fn traced(net: &str, steps: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &[("n.net", net)]);
+    let trace = |more: &[&str]| {
+        let mut command = pcl2();
+        command
+            .arg("run")
+            .arg(folder.path().join("n.net"))
+            .args(["--trace", "-", "--period", "1", "--steps", steps])
+            .args(more);
+        let output = run(&mut command);
+        assert!(output.status.success(), "{more:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let embedded = trace(&[]);
+    for form in ["fast", "table"] {
+        assert_eq!(trace(&["--engine", "cc", "--net-form", form]), embedded, "{form}");
+    }
+    embedded
+}
+
+/// A net with a box called like each function that is made of it.
+fn crowded() -> String {
+    let names: Vec<&str> = BEHIND.split_whitespace().collect();
+    let mut text =
+        "int y, real since = n ( int x, int changed, int nets : )\nACTIVE y, since OF tune, init\n".to_owned();
+    for name in &names {
+        let kind = if *name == "wait" { "TIME wait 0.5" } else { &format!("STATE {name}") };
+        let _ = writeln!(text, "{kind}{}", if *name == "act" { " MARKED" } else { "" });
+    }
+    for (from, to) in names.iter().zip(names.iter().cycle().skip(1)) {
+        let _ = writeln!(text, "GATE {from} : {from} -> {to} IF changed");
+    }
+    text + "END\n"
+}
+
+#[test]
+fn boxes_and_nets_may_be_called_like_what_is_made_of_a_net() {
+    let small = |name: &str| {
+        format!(
+            "int y = {name} ( int changed : )\nSTATE a MARKED\nSTATE b DRIVES y\nGATE g : a -> b IF changed\n\
+             GATE h : b -> a IF NOT changed\nEND\n"
+        )
+    };
+    let (gates, take) = (small("n_gates"), small("n_take"));
+    let main = "CONTROL\n1 x = msi ( : 1 )\n2 N = n ( x, x, x : )\n3 n_gates = n_gates ( x : )\n4 T = n_take ( x : )\n\
+                5 C = n_init ( x : )\nEND\n";
+    let composite = "int y = n_init ( int changed : )\nBODY\n1 z = n_gates ( changed : )\n2 y = not ( z : )\nEND\n";
+    let files = [
+        ("main.cfg", main),
+        ("n_init.fc", composite),
+        ("n.net", &crowded()),
+        ("n_gates.net", &gates),
+        ("n_take.net", &take),
+    ];
+    compile(&files);
+}
+
+#[test]
+fn functions_that_nobody_calls_are_not_written() {
+    let still = "int y = still ( : )\nSTATE a MARKED DRIVES y\nEND\n";
+    compile(&[("still.net", still)]);
+    let outer = "int y = outer ( int x : )\nSTATE a MARKED DRIVES y\nMACRO unused = inner ( : )\nMACRO M = middle ( : )\n\
+                 GATE g : a -> M IF x\nGATE h : M -> a\nEND\n";
+    let middle = "= middle ( : )\nENTRY a\nEXIT b\nMACRO I = innermost ( : )\nGATE g : a -> I\nGATE h : I -> b\nEND\n";
+    let inner = |name: &str| format!("= {name} ( : )\nENTRY a\nEXIT b\nGATE g : a -> b\nEND\n");
+    let aborting = outer.replace("middle ( : )\n", "middle ( : )\nABORT NOT x -> a\n");
+    for text in [outer, &aborting] {
+        let (inner, innermost) = (inner("inner"), inner("innermost"));
+        compile(&[("outer.net", text), ("middle.net", middle), ("inner.net", &inner), ("innermost.net", &innermost)]);
+    }
+}
+
+/// What a permissive computes on its way is there once, however many rules the gate has.
+#[test]
+fn a_permissive_that_computes_stands_before_several_rules() {
+    let net = "int y = n ( real v, int x : )\nSTATE a MARKED\nSTATE b DRIVES y\n\
+               GATE g : a -> b PERMIT 1./(v + 0.8) > 1.\nIF x\nTHEN a -> b\nIF v*2. > -1.\nTHEN a -> b\nEND\n";
+    let trace = traced(net, "2");
+    assert_eq!(trace.lines().nth(1).unwrap(), "0,0,0.0,0,1,0,1");
+}
+
+/// Tokens of a box without a limit stop at the largest int, also where two gates put them in one scan.
+#[test]
+fn tokens_without_a_limit_do_not_wrap() {
+    let net = "= n ( : )\nCAPACITY a\nGATE g : -> 2147483647*a\nGATE h : -> 2147483647*a\nEND\n";
+    assert!(traced(net, "2").ends_with("1,1,2147483647\n"));
+}
