@@ -233,14 +233,8 @@ static inline struct pcl2_net_writes {tag}_writes(struct {tag} *self, int32_t ou
 }}
 
 "
-    );
-    [
-        ("excite", ready("excite", "|= ", "The gates after a box are ready.")),
-        ("calm", ready("calm", "&= ~", "The gates after a box are not ready.")),
-        ("take", take),
-        ("put", put),
-        ("writes", writes),
-    ]
+        );
+    }
 }
 
 fn change_ready(out: &mut String, net: &NetBody<'_, '_, '_>, change: &str) {

@@ -38,8 +38,6 @@ pub(crate) struct NetLayout {
     pub(crate) called: bool,
     /// It is a block of the program somewhere.
     pub(crate) top: bool,
-    /// What nets around it do with it as a macro.
-    pub(crate) macro_uses: MacroUses,
     /// How it becomes C.
     pub(crate) form: NetForm,
     /// Of the fast form: what its code can leave out.
@@ -73,34 +71,6 @@ impl MacroMoves {
         let target = aborts.any(|abort| abort.to == place);
         self.entered |= target;
         self.asked |= target;
-    }
-}
-
-/// What nets do with a macro inside them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct MacroUses {
-    /// A gate or ABORT puts a token into it.
-    pub(crate) entered: bool,
-    /// Its room is asked for.
-    pub(crate) asked: bool,
-    /// A gate takes its token.
-    pub(crate) left: bool,
-    /// ABORT empties it.
-    pub(crate) emptied: bool,
-}
-
-impl MacroUses {
-    fn add(&mut self, net: &Net, part: &pcl2_lang::net::Part, outer: MacroUses) {
-        let Some(place) = part.place else {
-            return;
-        };
-        let is = |arc: &Arc| arc.place == place;
-        let aborted_to = net.parts.iter().filter_map(|part| part.abort.as_ref()).any(|abort| abort.to == place);
-        let puts = |gate: &&Gate| gate.after.iter().any(is);
-        self.entered |= aborted_to || net.gates.iter().any(|gate| puts(&gate));
-        self.asked |= aborted_to || net.gates.iter().filter(puts).any(|gate| !gate.before.iter().any(is));
-        self.left |= net.gates.iter().any(|gate| gate.before.iter().any(is));
-        self.emptied |= part.abort.is_some() || outer.emptied;
     }
 }
 
@@ -211,16 +181,9 @@ fn forms(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) -> Vec<
         let Some(net) = net_of(program, unit).filter(|_| units[outer].used) else {
             continue;
         };
-        for (i, line) in net.parts.iter().enumerate() {
-            let Some(inner) = part_unit(unit, net, PartId(i as u32)).map(|inner| inner.0 as usize) else {
-                continue;
-            };
-            part[inner] = true;
-            pairs.push((outer, inner));
-            let around = units[outer].net.as_ref().map(|net| net.macro_uses).unwrap_or_default();
-            if let Some(inner) = &mut units[inner].net {
-                inner.macro_uses.add(net, line, around);
-            }
+        for inner in (0..net.parts.len() as u32).filter_map(|i| part_unit(unit, net, PartId(i))) {
+            part[inner.0 as usize] = true;
+            pairs.push((outer, inner.0 as usize));
         }
     }
     let is_table = |units: &[UnitLayout<'_>], index: usize| {
