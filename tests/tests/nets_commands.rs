@@ -45,6 +45,33 @@ fn a_matrix_is_printed_for_people_and_for_tools() {
     refused("matrix", &net("none.net"), &[], 1, "expected a readable file");
 }
 
+/// Names of other tools have no longest length: what is wider than a column stands out. A net is no matrix.
+#[test]
+fn long_names_are_printed_and_a_net_is_no_matrix() {
+    let work = folder();
+    let file = work.path().join("long.pnml");
+    let name = "n".repeat(70_000);
+    let text = done("export", &net("tank.net"), &["--to", "pnml"]);
+    let text =
+        text.replace("\"tp11\"", &format!("\"{name}\"")).replace("<text>tp11</text>", &format!("<text>{name}</text>"));
+    fs::write(&file, text).unwrap();
+    assert!(done("matrix", &file, &[]).contains(&format!("  {name}  tp10")));
+    assert!(done("fire", &file, &[&name]).contains(&format!("  1  {name}  S0")));
+    refused("compose", &file, &[], 1, "expected a matrix as CSV, found XML");
+}
+
+/// An answer that does not reach its file is a failure.
+#[test]
+fn a_full_disk_is_told() {
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    for command in [&["analyze"][..], &["analyze", "--json"], &["matrix"], &["matrix", "--csv"]] {
+        let output = pcl2().arg("net").args(command).arg(net("tank.net")).stdout(full()).output().unwrap();
+        let messages = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{command:?} {messages}");
+        assert!(messages.contains("cannot write to standard output"), "{messages}");
+    }
+}
+
 /// The matrices of the loops, each in a file, add up to that of the whole net; a copy counts once; two that differ are
 /// an error.
 #[test]

@@ -1,13 +1,26 @@
 //! The terminal. A closed pipe is no error: whoever reads has seen enough.
 
+use crate::outcome::Outcome;
 use pcl2_lang::diagnostic::Diagnostic;
 use pcl2_lang::render;
 use pcl2_lang::source::Sources;
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 
 /// Writes to standard output.
 pub(crate) fn out(text: &str) {
     let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// Writes a command's answer to standard output: one that is lost is a failure.
+pub(crate) fn answer(text: &str) -> Outcome {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(why) if why.kind() != ErrorKind::BrokenPipe => {
+            error(&format!("cannot write to standard output: {why}"));
+            Outcome::Failed
+        }
+        Ok(()) | Err(_) => Outcome::Done,
+    }
 }
 
 /// Writes one line to standard error.

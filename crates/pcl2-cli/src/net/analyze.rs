@@ -39,8 +39,7 @@ pub(crate) fn analyze(net: &PtNet, args: &AnalyzeArgs) -> Outcome {
     let analysis = analysis::analyze(net, semantics, limit, &mut |markings| bar.set_position(markings));
     bar.finish_and_clear();
     let report = Report { net, semantics, analysis: &analysis };
-    console::out(&if args.json { format!("{}\n", report.json()) } else { report.text() });
-    Outcome::Done
+    console::answer(&if args.json { format!("{}\n", report.json()) } else { report.text() })
 }
 
 /// A bar for a search whose end nobody knows, if somebody watches.

@@ -103,6 +103,5 @@ fn print(composition: &Composition, csv: bool) -> Outcome {
         console::error(&format!("cannot write the matrix: {error}"));
         return Outcome::Failed;
     }
-    console::out(&String::from_utf8_lossy(&text));
-    Outcome::Done
+    console::answer(&String::from_utf8_lossy(&text))
 }

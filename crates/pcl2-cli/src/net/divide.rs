@@ -27,10 +27,7 @@ pub(crate) fn divide(args: &DivideArgs) -> Outcome {
     };
     let steps: Vec<&str> = args.steps.iter().map(|step| step.trim()).collect();
     match divided(&net, &steps) {
-        Ok(division) => {
-            console::out(&text(&net, &division));
-            Outcome::Done
-        }
+        Ok(division) => console::answer(&text(&net, &division)),
         Err(why) => refuse(&args.net.path, &why),
     }
 }

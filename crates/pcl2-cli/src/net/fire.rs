@@ -6,6 +6,7 @@ use crate::outcome::Outcome;
 use clap::Args;
 use pcl2_net::pt::PtNet;
 use pcl2_net::structure::fire::{OnBlocked, Rule, Scan, by_names, fire as fired, initial};
+use pcl2_net::structure::matrix::WIDEST;
 use pcl2_net::structure::names::Names;
 use std::fmt::Write;
 
@@ -29,10 +30,7 @@ pub(crate) fn fire(args: &FireArgs) -> Outcome {
         Err(outcome) => return outcome,
     };
     match run(&net, args) {
-        Ok(text) => {
-            console::out(&text);
-            Outcome::Done
-        }
+        Ok(text) => console::answer(&text),
         Err(why) => refuse(&args.net.path, &why),
     }
 }
@@ -82,7 +80,7 @@ fn groups(sequence: &str) -> Result<Vec<Vec<String>>, String> {
 /// A line for each marking: what fired before it, and the places that are marked.
 fn text(net: &PtNet, groups: &[Vec<String>], markings: &[Vec<i128>]) -> String {
     let fired: Vec<String> = groups.iter().map(|group| group.join(" ")).collect();
-    let width = fired.iter().map(|names| names.chars().count()).max().unwrap_or(0);
+    let width = fired.iter().map(|names| names.chars().count()).max().unwrap_or(0).min(WIDEST);
     let scans = std::iter::once("").chain(fired.iter().map(String::as_str));
     let mut text = String::new();
     for (k, (names, marking)) in scans.zip(markings).enumerate() {

@@ -85,8 +85,7 @@ pub(crate) fn matrix(args: &MatrixArgs) -> Outcome {
         console::error(&format!("cannot write the matrices: {error}"));
         return Outcome::Failed;
     }
-    console::out(&String::from_utf8_lossy(&text));
-    Outcome::Done
+    console::answer(&String::from_utf8_lossy(&text))
 }
 
 fn parts_of(path: &NetPath) -> Result<(PtNet, Vec<FlatPart>), Outcome> {

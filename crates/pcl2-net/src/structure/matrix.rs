@@ -8,6 +8,9 @@ use crate::structure::part::{ArcKind, arcs};
 use rustc_hash::FxHashSet;
 use std::io::{self, Write};
 
+/// The widest column of a text, in characters; a longer name stands out.
+pub const WIDEST: usize = 200;
+
 /// Which matrix of a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MatrixKind {
@@ -167,6 +170,9 @@ impl Matrix {
         let mut reader = csv::ReaderBuilder::new().from_reader(bytes);
         let header = reader.headers().map_err(|error| text_of(&error))?.clone();
         let label = header.get(0).ok_or("expected a line with the names of transitions, found nothing")?;
+        if label.trim_start().starts_with('<') {
+            return Err("expected a matrix as CSV, found XML; `net matrix --csv` writes the matrix of a net".to_owned());
+        }
         let columns: Vec<String> = header.iter().skip(1).map(|name| name.trim().to_owned()).collect();
         if let Some(column) = repeated(&columns) {
             return Err(format!("row 1, column {}: `{}` stands in an earlier column", column + 2, columns[column]));
@@ -217,9 +223,9 @@ fn text_of(error: &csv::Error) -> String {
     }
 }
 
-/// In characters: names of nets from other tools need not be ASCII.
+/// In characters: names of nets from other tools need not be ASCII, nor short.
 fn width(text: &str) -> usize {
-    text.chars().count()
+    text.chars().count().min(WIDEST)
 }
 
 fn write_line(
