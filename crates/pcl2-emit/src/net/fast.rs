@@ -156,7 +156,7 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let _ = if drives { writeln!(out, ", {outputs}}},") } else { writeln!(out, "}},") };
         if known {
             gates += after(i).len();
-            outputs += driven[i].len();
+            outputs += driven.get(i).map_or(0, Vec::len);
         }
     }
     out.push_str("};\n\n");
