@@ -80,11 +80,15 @@ const CONDITIONS: [&str; 16] = [
 const STATEMENTS: [&str; 8] =
     ["w0 = w0 + 1", "w0 = 3", "w0 = x2", "r0 = v * 2.", "r0 = r0 + 0.5", "kept = kept + 1", "w0 = kept", "kept = 0"];
 
+const PERMISSIVES: [&str; 6] = ["x1", "v > 0.3", "NOT x2", "kept < 9", "1./v > 0.5", "x0, (2.*v > 0.5 OR NOT x1)"];
+
 const TIMES: [&str; 5] = ["0.3", "1.", "par", "v", "x2"];
 
 /// The text of a random net called `name`, perhaps with classes of tokens.
 pub fn net(dice: &mut Dice, name: &str, classes: bool) -> String {
-    let boxes = 3 + dice.roll(8) as usize;
+    // Some nets need more than one word for the sets of boxes and gates.
+    let many = if dice.once_in(10) { 60 } else { 0 };
+    let boxes = (3 + dice.roll(8 + many)) as usize;
     let classes = classes && dice.once_in(2);
     let parts = dice.once_in(2);
     let mut maker =
@@ -105,7 +109,7 @@ pub fn net(dice: &mut Dice, name: &str, classes: bool) -> String {
     if parts {
         maker.inner();
     }
-    let gates = 3 + maker.dice.roll(10);
+    let gates = 3 + maker.dice.roll(10 + many);
     (0..gates).for_each(|i| maker.gate(i));
     maker.text.push_str("END\n");
     maker.text
@@ -255,7 +259,7 @@ impl Maker<'_> {
             let _ = write!(self.text, " PRIORITY {}", self.dice.roll(5) as i64 - 2);
         }
         if self.dice.once_in(4) {
-            let _ = write!(self.text, " PERMIT {}", self.dice.pick(&["x1", "v > 0.3", "NOT x2", "kept < 9"]));
+            let _ = write!(self.text, " PERMIT {}", self.dice.pick(&PERMISSIVES));
         }
         let same = before.first().is_some_and(|(first, _)| {
             let class = self.classed[*first];
@@ -324,7 +328,8 @@ impl Maker<'_> {
 /// A configuration that runs nets side by side, `r0`, `r1`, .., over the same inputs.
 pub fn configuration(nets: usize) -> String {
     let mut text =
-        "CONTROL\n1 x0 = msi ( : 0 )\n2 x1 = msi ( : 0 )\n3 x2 = msi ( : 0 )\n4 v = msc ( : 0. )\n5 x3 = msi ( : 0 )\n"
+        "CONTROL\n1 x0 = msi ( : 0 )\n2 x1 = msi ( : 0 )\n3 x2 = msi ( : 0 )\n4 u = msc ( : 0. )\n5 x3 = msi ( : 0 )\n\
+         6 v = u + 0.*u/(u - 0.1)\n"
             .to_owned();
     for i in 0..nets {
         let _ = writeln!(text, "{} N{i} = r{i} ( x0, x1, x2, v, x3 : )", i + 10);
@@ -332,9 +337,9 @@ pub fn configuration(nets: usize) -> String {
     text + "END\n"
 }
 
-/// Values of the inputs for so many scans: they change now and then, one of them is bad at times.
+/// Values of the inputs for so many scans: they change now and then, `v` is bad while `u` is 0.1.
 pub fn stimulus(dice: &mut Dice, scans: u64) -> String {
-    let mut text = "k,x0.value,x1.value,x2.value,v.value,x3.value\n".to_owned();
+    let mut text = "k,x0.value,x1.value,x2.value,u.value,x3.value\n".to_owned();
     let (mut ints, mut real) = ([0_u64; 4], "0.");
     for scan in 0..scans {
         for int in &mut ints {
