@@ -102,7 +102,7 @@ impl Real {
 /// `pcl2 check`
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     #[arg(required = true, value_name = "PATH")]
     pub(crate) paths: Vec<PathBuf>,
     #[command(flatten)]
@@ -130,7 +130,7 @@ pub(crate) enum Format {
 /// `pcl2 build`
 #[derive(Args, Debug)]
 pub(crate) struct BuildArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     #[arg(required = true, value_name = "PATH")]
     pub(crate) paths: Vec<PathBuf>,
     /// The folder that takes the output

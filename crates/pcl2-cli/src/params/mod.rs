@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// `pcl2 params`
 #[derive(Args, Debug)]
 pub(crate) struct ParamsArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     pub(crate) path: PathBuf,
     /// Values to compare with the source: lines NAME=VALUE, as `run --params` writes them
     #[arg(long, value_name = "FILE")]

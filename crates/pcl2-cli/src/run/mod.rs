@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 /// `pcl2 run`
 #[derive(Args, Debug)]
 pub(crate) struct RunArgs {
-    /// A .cfg file, or a folder with pcl2.toml
+    /// A .cfg or .net file, or a folder with pcl2.toml
     pub(crate) path: PathBuf,
     /// How many scans
     #[arg(long, value_name = "N", conflicts_with = "until")]
