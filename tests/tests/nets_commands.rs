@@ -329,3 +329,17 @@ fn the_commands_of_the_page_say_what_stands_there() {
     assert!(commands >= 5, "only {commands} commands");
     none(&complaints);
 }
+
+#[test]
+fn a_source_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("one.net");
+    let text = "= one ( : )\nSTATE a MARKED\nGATE g : a -> a\nEND\n";
+    std::fs::write(&path, text).unwrap();
+    for command in [["export", "--to", "pnml"].as_slice(), &["flatten"]] {
+        let (name, more) = command.split_first().unwrap();
+        let output = run(pcl2().args(["net", name]).arg(&path).args(more).arg("-o").arg(&path));
+        assert_eq!(output.status.code(), Some(1), "{command:?}");
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), text, "{command:?}");
+    }
+}

@@ -113,7 +113,7 @@ fn explore(
     let mut known = tree(FEW_NODES);
     if known.as_ref().is_none_or(|cover| !cover.complete && cover.unbounded.is_empty()) {
         let space = explorer.explore(semantics, limit.at_most(MOST_UNDECIDED), progress);
-        if space.complete {
+        if space.complete || (limit.markings == usize::MAX && semantics == Semantics::Step) {
             return (space, known);
         }
     }
@@ -121,8 +121,14 @@ fn explore(
         known = tree(MOST_UNBOUNDED);
     }
     let is_unbounded = known.as_ref().is_some_and(|cover| !cover.unbounded.is_empty());
-    let limit = if is_unbounded { limit.at_most(MOST_UNBOUNDED) } else { limit };
-    (explorer.explore(semantics, limit, progress), known)
+    let is_bounded = known.as_ref().is_some_and(|cover| cover.complete && !is_unbounded);
+    // What is not known to be bounded fills no memory unless somebody says how many markings are wanted.
+    let most = match (is_unbounded, is_bounded || limit.markings != usize::MAX) {
+        (true, _) => MOST_UNBOUNDED,
+        (false, true) => usize::MAX,
+        (false, false) => MOST_UNDECIDED,
+    };
+    (explorer.explore(semantics, limit.at_most(most), progress), known)
 }
 
 /// The coverability tree. Scans reach no more than single transitions do if nothing is only read.

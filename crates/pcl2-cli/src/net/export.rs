@@ -5,7 +5,7 @@ use crate::outcome::Outcome;
 use crate::run::files::{self, Output};
 use clap::{Args, ValueEnum};
 use pcl2_net::export;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `pcl2 net export`
 #[derive(Args, Debug)]
@@ -43,13 +43,18 @@ pub(crate) fn export(args: &ExportArgs) -> Outcome {
         Format::Ltsmin => export::ltsmin(&net),
     };
     match text {
-        Ok(text) => write(&args.output, &text),
+        Ok(text) => write(&args.net.path, &args.output, &text),
         Err(why) => refuse(&args.net.path, &why),
     }
 }
 
-/// Writes a text to a file or to standard output.
-pub(super) fn write(path: &std::path::Path, text: &str) -> Outcome {
+/// Writes a text that was made of a source to a file or to standard output.
+pub(super) fn write(source: &Path, path: &Path, text: &str) -> Outcome {
+    if let (Ok(source), Ok(file)) = (source.canonicalize(), path.canonicalize())
+        && source == file
+    {
+        return refuse(path, "expected another file than the source for the output, found the source");
+    }
     let written = Output::open(path).and_then(|mut output| {
         files::write(path, &mut output, text.as_bytes())?;
         output.keep()

@@ -39,7 +39,7 @@ pub(crate) fn flatten(args: &FlattenArgs) -> Outcome {
     };
     let text = pcl2_net::flat_text(decl, &name, &project.catalogue, &project.symbols, &project.sources);
     match text.and_then(|text| laid_out(&mut project, &name, text)) {
-        Ok(text) => write(&args.output, &text),
+        Ok(text) => write(&args.net.path, &args.output, &text),
         Err(why) => refuse(&args.net.path, &why),
     }
 }
