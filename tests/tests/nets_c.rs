@@ -122,3 +122,18 @@ fn tokens_without_a_limit_do_not_wrap() {
     let net = "= n ( : )\nCAPACITY a\nGATE g : -> 2147483647*a\nGATE h : -> 2147483647*a\nEND\n";
     assert!(traced(net, "2").ends_with("1,1,2147483647\n"));
 }
+
+/// What stands in the vector of a net's tokens is told by name.
+#[test]
+fn boxes_are_named_in_the_model_description() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("two.net");
+    std::fs::write(&path, "= two ( : )\nSTATE a MARKED\nSTATE b\nGATE g : a -> b\nEND\n").unwrap();
+    let output = run(pcl2().arg("build").arg(&path).arg("-o").arg(folder.path().join("out")));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = std::fs::read_to_string(folder.path().join("out/two.json")).unwrap();
+    let model: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let signals = model["signals"].as_array().unwrap();
+    let tokens = signals.iter().find(|signal| signal["name"] == "two.box").unwrap();
+    assert_eq!(tokens["elements"], serde_json::json!(["a", "b"]));
+}

@@ -343,3 +343,16 @@ fn a_source_is_not_written_over() {
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text, "{command:?}");
     }
 }
+
+/// A report appears whole or not at all.
+#[test]
+fn a_report_leaves_no_half_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("q.net");
+    std::fs::write(&path, "= q ( : )\nSTATE a MARKED\nGATE g : a -> a\nEND\n").unwrap();
+    std::fs::create_dir_all(folder.path().join("out/q.md")).unwrap();
+    let output = run(pcl2().args(["net", "report"]).arg(&path).arg("-o").arg(folder.path().join("out")));
+    assert_eq!(output.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("cannot write"));
+    assert!(!folder.path().join("out/q.html").exists());
+}

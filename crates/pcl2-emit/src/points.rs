@@ -380,6 +380,14 @@ fn json_row(out: &mut String, cx: &Context<'_>, seen: &Seen<'_>, kind: &Kind) {
     out.push_str(if out.is_empty() { "\n    {\"name\": " } else { ",\n    {\"name\": " });
     json_string(out, seen.name);
     out.push_str(&kind.json_row);
+    if !seen.elements.is_empty() {
+        out.push_str(", \"elements\": [");
+        for (i, name) in seen.elements.iter().enumerate() {
+            out.push_str(if i > 0 { ", " } else { "" });
+            json_string(out, name);
+        }
+        out.push(']');
+    }
     if let Some(value) = default(cx, seen.place) {
         out.push_str(", \"default\": ");
         json_value(out, value, seen, cx.program.width);

@@ -4,12 +4,15 @@ use super::refuse;
 use crate::args::CommonArgs;
 use crate::console;
 use crate::outcome::Outcome;
-use crate::output::write_file;
+use crate::output::Pending;
 use crate::project;
+use crate::run::Failure;
+use crate::run::files::cannot_write;
 use clap::Args;
 use pcl2_net::flat;
 use pcl2_net::report::{self, Input};
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// `pcl2 net report`
@@ -47,17 +50,29 @@ pub(crate) fn report(args: &ReportArgs) -> Outcome {
     let picture = pcl2_draw::net::svg(&written);
     let name = &net.decl.name;
     let svg = format!("{name}.svg");
-    write(&args.output, &format!("{name}.html"), &document.html(&picture))
-        .and_then(|()| write(&args.output, &format!("{name}.md"), &document.markdown(&svg)))
-        .and_then(|()| write(&args.output, &svg, &picture))
-        .map_or_else(|outcome| outcome, |()| Outcome::Done)
+    let files = [
+        (format!("{name}.html"), document.html(&picture)),
+        (format!("{name}.md"), document.markdown(&svg)),
+        (svg, picture),
+    ];
+    match write(&args.output, &files) {
+        Ok(()) => Outcome::Done,
+        Err(failure) => failure.report(),
+    }
 }
 
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), Outcome> {
-    let path = folder.join(name);
-    let written = fs::create_dir_all(folder).and_then(|()| write_file(&path, text.as_bytes()));
-    written.map_err(|error| {
-        console::error(&format!("cannot write `{}`: {error}", path.display()));
-        Outcome::Failed
-    })
+/// Writes all files, or none where one cannot be written.
+fn write(folder: &Path, files: &[(String, String)]) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
+    let mut pending = Vec::with_capacity(files.len());
+    for (name, text) in files {
+        let path = folder.join(name);
+        if path.is_dir() {
+            return Err(cannot_write(&path, &io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        let mut file = Pending::new(&path).map_err(|error| cannot_write(&path, &error))?;
+        file.write_all(text.as_bytes()).map_err(|error| cannot_write(&path, &error))?;
+        pending.push((path, file));
+    }
+    pending.into_iter().try_for_each(|(path, file)| file.keep().map_err(|error| cannot_write(&path, &error)))
 }
