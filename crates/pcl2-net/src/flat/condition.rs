@@ -170,8 +170,9 @@ impl Reader<'_, '_> {
 
 fn applied(sign: &str, operands: Vec<Value>) -> Value {
     let mut operands = operands.into_iter();
-    // The words of the notation stand there in small letters.
-    let word = if sign.bytes().any(|letter| letter.is_ascii_uppercase()) { "" } else { &sign.to_ascii_uppercase() };
+    // NOT is an operator; AND and OR stand there in small letters.
+    let small = !sign.bytes().any(|letter| letter.is_ascii_uppercase());
+    let word = if small || sign == "NOT" { &sign.to_ascii_uppercase() } else { "" };
     match (word, operands.next(), operands.next()) {
         ("NOT", Some(one), None) => Value::Test(one.test().not()),
         ("AND", Some(one), Some(other)) => Value::Test(one.test().and(other.test())),
