@@ -5,6 +5,7 @@ pub mod compilers;
 pub mod expect;
 pub mod fences;
 pub mod net_picture;
+pub mod nets;
 pub mod picture;
 pub mod random_nets;
 pub mod renamed;

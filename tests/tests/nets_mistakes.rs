@@ -1,0 +1,111 @@
+//! Nets with mistakes: each is told, once, at its place.
+
+use pcl2_tests::nets::checked;
+
+fn refused(text: &str, code: &str) {
+    let (status, shown) = checked(text);
+    assert_eq!(status, Some(1), "{text}\n{shown}");
+    assert!(shown.contains(code), "{code} for\n{text}\nfound\n{shown}");
+}
+
+/// What is wrong in a net is told at its place, and nothing runs.
+#[test]
+fn nets_with_mistakes_are_refused() {
+    let head = "= bad ( int x : )\n";
+    let cases = [
+        ("STATE a MARKED\nGATE g : a -> b\nEND\n", "P0401"),
+        ("STATE a\nSTATE a\nEND\n", "P0402"),
+        ("CAPACITY a SIZE 2 MARKED 3\nEND\n", "P0404"),
+        ("MACRO m = bad ( x : )\nEND\n", "P0406"),
+        ("STATE a SIZE 3\nEND\n", "P0408"),
+        ("STATE a MARKED\nGATE g : a -> IF 1.5\nEND\n", "P0409"),
+        ("CLASS c ( int n )\nSTATE a OF c\nSTATE b\nGATE g : b -> a\nEND\n", "P0405"),
+        ("STATE a MARKED\n", "P0006"),
+        ("OPERATION o DO nobody ( x : )\nEND\n", "P0101"),
+        ("GATE g : a ->\nTHEN\nEND\n", "P0002"),
+        ("END\n", "P0408"),
+        ("STATE a\nSTATE b MARKED\nSTATE c\nGATE g : b -> a, c\nTHEN b -> a\nEND\n", "P0403"),
+        ("STATE a\nFOR i = 1 TO 2000000000\nNEXT\nEND\n", "P0208"),
+        ("STATE a\nFOR i = 1 TO 2000000000\nFOR j = 1 TO 2000000000\nNEXT\nNEXT\nEND\n", "P0208"),
+        ("CLASS c ( int n )\nFOR i = 1 TO 1000\nCAPACITY a[i] OF c SIZE 65535\nNEXT\nEND\n", "P0208"),
+        ("MODE y\nSTATE a\nEND\n", "P0408"),
+        ("MODE x\nMODE x\nSTATE a\nEND\n", "P0408"),
+        ("MODE x, x\nSTATE a\nEND\n", "P0408"),
+        ("LOCAL int l\nMODE x\nSTOP l = 0\nSTATE a\nEND\n", "P0408"),
+        ("LOCAL int l\nSTOP l = 0\nSTATE a\nEND\n", "P0408"),
+        ("MODE x\nSTOP nobody = HOLD\nSTATE a\nEND\n", "P0401"),
+        ("LOCAL real l\nBLOCKED l\nSTATE a\nEND\n", "P0203"),
+        ("LOCAL int l\nBLOCKED l\nBLOCKED l\nSTATE a\nEND\n", "P0408"),
+        ("LOCAL int l\nBLOCKED l\nOPERATION a DO l = 1\nEND\n", "P0407"),
+        ("BLOCKED x\nSTATE a\nEND\n", "P0401"),
+        ("MODE\nSTATE a\nEND\n", "P0002"),
+        ("STOP l = a\nSTATE a\nEND\n", "P0002"),
+    ];
+    for (text, code) in cases {
+        refused(&format!("{head}{text}"), code);
+    }
+}
+
+/// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
+/// used; a help can be followed.
+#[test]
+fn a_mistake_is_told_once_at_its_place() {
+    let cases = [
+        ("int v, int q = bad ( : )\nSTATE a MARKED DRIVES v\nEND\n", "P0407", "bad.net:1:12"),
+        ("int v, real q = bad ( : )\nSTATE a MARKED DRIVES v, q\nEND\n", "P0407", "bad.net:1:13"),
+        ("int v = bad ( int v : )\nSTATE a MARKED DRIVES v\nEND\n", "P0402", "bad.net:1:5"),
+        ("ivec[2] v = bad ( : )\nSTATE a MARKED\nEND\n", "P0501", "bad.net:1:9"),
+        (
+            "int on = bad ( int b : )\nSTATE off MARKED\nSTATE on DRIVES on\nGATE g : off -> on IF b\nGATE h : on -> off\nEND\n",
+            "P0402",
+            "bad.net:3:7",
+        ),
+        ("= bad ( : )\nSTATE a MARKED 2\nEND\n", "P0404", "expected at most 1 token in `a`, found 2"),
+        ("= bad ( : )\nSTATE a MARKED\nSTATE b\nGATE g : 2*a -> b\nEND\n", "P0404", "at most 1 token from or to `a`"),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nEND\n",
+            "P0405",
+            "help: make a new one: `THEN a -> nothing`, `THEN NEW -> b`",
+        ),
+        (
+            "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE p OF c MARKED\nSTATE b OF c\nGATE g : a, p -> b\nEND\n",
+            "P0405",
+            "help: say with THEN which token goes where: `THEN p -> b`",
+        ),
+    ];
+    for (text, code, words) in cases {
+        let (status, shown) = checked(text);
+        assert_eq!(status, Some(1), "{text}\n{shown}");
+        assert_eq!(shown.matches("error[").count(), 1, "{text}\n{shown}");
+        assert!(shown.contains(code) && shown.contains(words), "{code} {words} for\n{text}\nfound\n{shown}");
+    }
+    let followed = "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE b OF c\nGATE g : a -> b\nTHEN a -> nothing\nTHEN NEW -> b\nEND\n";
+    assert_eq!(checked(followed), (Some(0), String::new()));
+}
+
+/// What an operator works a net by is asked for in the head, and named once.
+#[test]
+fn modes_with_mistakes_are_refused() {
+    let heads = "int q, real r = bad ( int x, cell int g = 0, cell real h = 0., cell int m = 0 : )\n";
+    let rest = "STATE a MARKED DRIVES q\nOPERATION b DO r = 1.\nEND\n";
+    let cases = [
+        ("MODE x, h\n", "P0408"),
+        ("MODE x, x\n", "P0408"),
+        ("MODE h\n", "P0408"),
+        ("MODE g, g\n", "P0408"),
+        ("MODE x, g, g\n", "P0408"),
+        ("MOMENTARY g\nMODE x, g\n", "P0408"),
+        ("MOMENTARY m, m\n", "P0408"),
+        ("MODE x, g, m, nobody\n", "P0408"),
+        ("MODE x, g, m, g, m, g\n", "P0408"),
+        ("MODE x\nSTOP q = 1, q = 2\n", "P0408"),
+        ("MODE x\nSTOP q = 1.5\n", "P0210"),
+        ("MODE x\nSTOP x = 1\n", "P0408"),
+        ("MODE x\nSTOP q = 1 r = 2\n", "P0002"),
+        ("BLOCKED q\n", "P0407"),
+        ("BLOCKED g\n", "P0401"),
+    ];
+    for (text, code) in cases {
+        refused(&format!("{heads}{text}{rest}"), code);
+    }
+}
