@@ -136,6 +136,15 @@ pub(crate) fn literal(program: &Program, unit: &Unit, condition: StatementId) ->
     port.then_some(Literal { input, truth })
 }
 
+/// Adds a gate, which comes behind those that are there, to the words of a set.
+pub(super) fn add_gate(sets: &mut Vec<(usize, u32)>, gate: usize) {
+    let (set, bit) = (gate / GATES, 1 << (gate % GATES));
+    match sets.last_mut().filter(|(known, _)| *known == set) {
+        Some((_, gates)) => *gates |= bit,
+        None => sets.push((set, bit)),
+    }
+}
+
 fn is_loop(gate: &Gate) -> bool {
     gate.before.iter().any(|arc| gate.after.iter().any(|other| other.place == arc.place))
 }
@@ -170,11 +179,7 @@ impl NetFacts {
         }
         self.loops |= is_loop(gate);
         if let Some(first) = gate.before.first() {
-            let (list, set, bit) = (&mut self.readied[first.place.0 as usize], index / GATES, 1 << (index % GATES));
-            match list.last_mut().filter(|(known, _)| *known == set) {
-                Some((_, gates)) => *gates |= bit,
-                None => list.push((set, bit)),
-            }
+            add_gate(&mut self.readied[first.place.0 as usize], index);
         }
     }
 

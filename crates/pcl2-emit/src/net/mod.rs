@@ -1,24 +1,25 @@
 //! Nets as C: what an instance keeps, its statements, and the scan.
 
+mod ends;
 pub(crate) mod facts;
 mod fast;
 mod gates;
+mod inputs;
 pub(crate) mod layout;
+mod moves;
 mod statements;
 mod table;
 mod waits;
 
 use crate::NetForm;
-use crate::args::{Call, Caller};
 use crate::bodies::Body;
-use crate::calls;
-use crate::context::Context;
-use crate::expr::{self, Kind, Scope};
+use crate::expr::{self, Scope};
 use crate::layout::UnitLayout;
 use crate::statics::Statics;
+pub(crate) use inputs::{is_top, takers, top};
 use layout::NetLayout;
 use pcl2_lang::net::{BoxId, Net, NetBox};
-use pcl2_lang::program::{BlockId, Role, SignalId, UnitId};
+use pcl2_lang::program::{SignalId, UnitId};
 use pcl2_lang::types::{Scalar, Value};
 use std::fmt::Write;
 
@@ -150,108 +151,11 @@ pub(crate) fn scan(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_
     if layout.called || (table && layout.top) {
         let _ = writeln!(out, "{head}{{");
         if table {
-            take_arguments(out, net, INDENT);
+            inputs::take_arguments(out, net);
             table::scan(out, net);
         } else {
-            fast::take_and_scan(out, net);
+            inputs::take_and_scan(out, net);
         }
         out.push_str("}\n\n");
-    }
-}
-
-/// Whether a block of the program is a net whose inputs are compared where it is called.
-pub(crate) fn is_top(cx: &Context<'_>, unit: UnitId, inner: UnitId) -> bool {
-    unit.0 == 0 && cx.unit_layout(inner).net.as_ref().is_some_and(|net| net.form == NetForm::Fast)
-}
-
-/// Writes the functions that take the inputs of the program's nets in, each called only when one changed.
-pub(crate) fn takers(out: &mut String, statics: &mut Statics, cx: &Context<'_>) {
-    for (index, name) in cx.layout.takers.iter().enumerate().filter_map(|(i, name)| Some((i, name.as_ref()?))) {
-        let call = top_call(cx, Scope::of(UnitId(0)), BlockId(index as u32));
-        let Some(tag) = call.block().unit.map(|inner| &cx.unit_layout(inner).tag) else {
-            continue;
-        };
-        let inputs = top_inputs(statics, &call);
-        let ports = call.block().unit.map_or(0, |inner| cx.unit_layout(inner).ports.len());
-        let arguments: Vec<&str> = inputs.iter().take(ports).map(|input| input.from.as_str()).collect();
-        if arguments.is_empty() {
-            continue;
-        }
-        let mut instance = String::new();
-        expr::block(&mut instance, cx, call.scope(), call.id);
-        let _ = writeln!(
-            out,
-            "PCL2_SHARED void {name}({} *self)\n{{\n    (void){tag}_inputs(&{instance}, {});\n}}\n",
-            cx.name,
-            arguments.join(", ")
-        );
-    }
-}
-
-fn top_call<'c, 'a>(cx: &'c Context<'a>, scope: Scope<'c>, id: BlockId) -> Call<'c, 'a> {
-    Call::new(cx, UnitId(0), id, Caller::Step(scope), None)
-}
-
-fn top_inputs(statics: &mut Statics, call: &Call<'_, '_>) -> Vec<statements::Input> {
-    let mut instance = String::new();
-    expr::block(&mut instance, call.cx, call.scope(), call.id);
-    statements::inputs_of(statics, call, &instance)
-}
-
-/// Writes the scan of a net that is a block of the program.
-pub(crate) fn top(out: &mut String, statics: &mut Statics, cx: &Context<'_>, scope: Scope<'_>, id: BlockId) {
-    let call = top_call(cx, scope, id);
-    let (Some(inner), Some(taker)) = (call.block().unit, &cx.layout.takers[id.0 as usize]) else {
-        return;
-    };
-    let tag = &cx.unit_layout(inner).tag;
-    let mut instance = String::new();
-    expr::block(&mut instance, cx, scope, id);
-    let changes: Vec<String> = top_inputs(statics, &call).iter().filter_map(statements::Input::change).collect();
-    if changes.is_empty() {
-        let _ = writeln!(out, "    {tag}_scan(&{instance}, 0);");
-        return;
-    }
-    let changes = changes.join(" |\n            ");
-    let _ = write!(
-        out,
-        "    {{
-        const int32_t changed =
-            {changes};
-        if (changed) {{
-            {taker}(self);
-        }}
-        {tag}_scan(&{instance}, changed);
-    }}
-"
-    );
-}
-
-/// Takes the arguments in: they stay until the next scan.
-fn take_arguments(out: &mut String, net: &NetBody<'_, '_, '_>, indent: &str) {
-    for (i, signal) in net.body.unit.signals.iter().enumerate() {
-        if let Role::Port(port) = signal.role {
-            take_argument(out, net, SignalId(i as u32), port, indent);
-        }
-    }
-    commands(out, net, net.scope(), indent);
-}
-
-fn take_argument(out: &mut String, net: &NetBody<'_, '_, '_>, input: SignalId, port: u32, indent: &str) {
-    let ty = net.body.unit.signal(input).ty;
-    let to = |out: &mut String| expr::signal_base(out, net.body.cx, net.scope(), input);
-    let argument = &net.body.layout.ports[port as usize].0;
-    calls::assign(out, indent, ty, to, |out| {
-        out.push_str(argument);
-        if ty.is_scalar() { Kind::Scalar } else { Kind::Array(0) }
-    });
-}
-
-/// Commands go to the words that gates clear, and the mode to one of its own.
-fn commands(out: &mut String, net: &NetBody<'_, '_, '_>, scope: Scope<'_>, indent: &str) {
-    for (port, word) in net.net.latched() {
-        let mut from = String::new();
-        expr::signal_value(&mut from, net.body.cx, scope, SignalId(port), 0);
-        let _ = writeln!(out, "{indent}{} = {from};", net.word(word.0 as usize, scope));
     }
 }

@@ -1,4 +1,4 @@
-//! A net as the table that the player of the runtime walks (`runtime-c/include/pcl2_net.h`).
+//! A net as the table that the player of the runtime walks (`runtime-c/src/net`).
 
 use super::{
     Arc, BoxId, Drive, Gate, Kind, Level, Move, Net, NetBox, Order, Part, PartId, Rule, StatementId, Tested, WordId,

@@ -1,0 +1,157 @@
+/* Records of the table of a net, and the tokens of its boxes, with their attributes. */
+#ifndef PCL2_NET_TOKENS_H
+#define PCL2_NET_TOKENS_H
+
+#include "pcl2_net.h"
+
+#define NET_ORDER_FIFO 0
+#define NET_ORDER_LIFO 1
+#define NET_ORDER_LEAST 2
+
+static const pcl2_net_word *net_record(const struct pcl2_net *net, int32_t list, int32_t index)
+{
+    return net->table + net->table[net->table[list] + index];
+}
+
+static const pcl2_net_word *net_box_record(const struct pcl2_net *net, int32_t b)
+{
+    return net_record(net, PCL2_NET_BOXES, b);
+}
+
+static void *net_word_at(const struct pcl2_net *net, int32_t word)
+{
+    return net->base + net->words[word];
+}
+
+static void *net_hand_at(const struct pcl2_net *net, int32_t hand)
+{
+    return net->base + net->hands[hand];
+}
+
+static const pcl2_net_word *net_class_of(const struct pcl2_net *net, const pcl2_net_word *box)
+{
+    return box[1] == 0 ? NULL : net_record(net, PCL2_NET_CLASSES, box[1] - 1);
+}
+
+/* How many ints and reals a token of a class has. */
+static void net_sizes_of(const pcl2_net_word *class, int32_t *ints, int32_t *reals)
+{
+    *ints = 0;
+    *reals = 0;
+    for (int32_t i = 1; i <= class[0]; i++) {
+        *(class[i] == 0 ? ints : reals) += 1;
+    }
+}
+
+static void net_load(struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
+{
+    const pcl2_net_word *class = net_class_of(net, box);
+    int32_t ints, reals;
+    if (class == NULL) {
+        return;
+    }
+    net_sizes_of(class, &ints, &reals);
+    const int32_t *from_ints = net->ints + box[5] + place * ints;
+    const pcl2_real *from_reals = net->reals + box[6] + place * reals;
+    for (int32_t i = 1; i <= class[0]; i++) {
+        void *hand = net_hand_at(net, box[7] + i - 1);
+        if (class[i] == 0) {
+            *(int32_t *)hand = *from_ints++;
+        } else {
+            *(pcl2_real *)hand = *from_reals++;
+        }
+    }
+}
+
+/* Puts what stands in the hand of one box into a place of another of the same class. */
+static void net_store(struct pcl2_net *net, const pcl2_net_word *from, const pcl2_net_word *box, int32_t place)
+{
+    const pcl2_net_word *class = net_class_of(net, box);
+    int32_t ints, reals;
+    if (class == NULL) {
+        return;
+    }
+    net_sizes_of(class, &ints, &reals);
+    int32_t *to_ints = net->ints + box[5] + place * ints;
+    pcl2_real *to_reals = net->reals + box[6] + place * reals;
+    for (int32_t i = 1; i <= class[0]; i++) {
+        const void *hand = net_hand_at(net, from[7] + i - 1);
+        if (class[i] == 0) {
+            *to_ints++ = *(const int32_t *)hand;
+        } else {
+            *to_reals++ = *(const pcl2_real *)hand;
+        }
+    }
+}
+
+/* The tokens that can still be taken. */
+static int32_t net_left(const struct pcl2_net *net, int32_t b)
+{
+    return net->box[b] - net->taken[b];
+}
+
+/* The value by which tokens are ordered; one that is no number goes last. */
+static pcl2_real net_key_of(const struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
+{
+    const pcl2_net_word *class = net_class_of(net, box);
+    int32_t ints, reals, before[2] = {0, 0};
+    pcl2_real key;
+    net_sizes_of(class, &ints, &reals);
+    for (int32_t i = 1; i <= box[4]; i++) {
+        before[class[i]] += 1;
+    }
+    if (class[box[4] + 1] == 0) {
+        key = (pcl2_real)net->ints[box[5] + place * ints + before[0]];
+    } else {
+        key = net->reals[box[6] + place * reals + before[1]];
+    }
+    key = box[3] == NET_ORDER_LEAST ? key : -key;
+    return key == key ? key : PCL2_REAL_MAX;
+}
+
+/* The token that goes after another (-1: the first); -1: there is none. */
+static int32_t net_next_token(const struct pcl2_net *net, int32_t b, int32_t after)
+{
+    const pcl2_net_word *box = net_box_record(net, b);
+    const int32_t n = net_left(net, b);
+    int32_t best = -1;
+    if (box[1] == 0 || box[3] == NET_ORDER_FIFO) {
+        return after + 1 < n ? after + 1 : -1;
+    }
+    if (box[3] == NET_ORDER_LIFO) {
+        return after < 0 ? n - 1 : after - 1;
+    }
+    for (int32_t i = 0; i < n; i++) {
+        const pcl2_real key = net_key_of(net, box, i);
+        const pcl2_real last = after < 0 ? key : net_key_of(net, box, after);
+        const int32_t later = after < 0 || key > last || (key == last && i > after);
+        if (later && (best < 0 || key < net_key_of(net, box, best))) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Closes the gap that a token leaves. */
+static void net_remove_token(struct pcl2_net *net, int32_t b, int32_t place)
+{
+    const pcl2_net_word *box = net_box_record(net, b), *class = net_class_of(net, box);
+    const int32_t n = net_left(net, b) + net->filled[b];
+    int32_t ints, reals;
+    if (class != NULL) {
+        net_sizes_of(class, &ints, &reals);
+        const size_t behind = (size_t)(n - place - 1);
+        /* A net without attributes of a type has no array of it. */
+        if (ints > 0) {
+            int32_t *first = net->ints + box[5] + place * ints;
+            memmove(first, first + ints, behind * (size_t)ints * sizeof *first);
+        }
+        if (reals > 0) {
+            pcl2_real *first = net->reals + box[6] + place * reals;
+            memmove(first, first + reals, behind * (size_t)reals * sizeof *first);
+        }
+    }
+    net->taken[b] = box[0] == PCL2_NET_COUNT ? net->box[b] : net->taken[b] + 1;
+}
+
+#endif
