@@ -1,30 +1,11 @@
 //! Random nets with everything that the notation has, for the comparison of engines and forms.
 
+use crate::dice::Dice;
 use std::fmt::Write;
 
-/// A small generator of numbers: the same nets everywhere.
-pub struct Dice(u64);
-
-impl Dice {
-    /// Begins with a seed.
-    pub fn new(seed: u64) -> Dice {
-        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def1)
-    }
-
-    /// A number below `sides`.
-    pub fn roll(&mut self, sides: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % sides
-    }
-
-    /// True once in so many times.
-    pub fn once_in(&mut self, times: u64) -> bool {
-        self.roll(times) == 0
-    }
-
-    fn pick<'t>(&mut self, list: &[&'t str]) -> &'t str {
-        list[self.roll(list.len() as u64) as usize]
-    }
+/// The dice of a batch of nets.
+pub fn dice(seed: u64) -> Dice {
+    Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def1)
 }
 
 /// Nets that stand inside others: a macro, one with a macro inside, a module. File name and text.
@@ -117,11 +98,11 @@ pub fn net(dice: &mut Dice, name: &str, classes: bool) -> String {
 
 impl Maker<'_> {
     fn condition(&mut self) -> &'static str {
-        self.dice.pick(&CONDITIONS)
+        self.dice.one(&CONDITIONS)
     }
 
     fn place(&mut self, index: usize, classes: bool) {
-        let kind = self.dice.pick(&[
+        let kind = self.dice.one(&[
             "STATE",
             "STATE",
             "STATE",
@@ -139,7 +120,7 @@ impl Maker<'_> {
         let size = 1 + self.dice.roll(4);
         match kind {
             "TIME" => {
-                let time = self.dice.pick(&TIMES);
+                let time = self.dice.one(&TIMES);
                 let _ = write!(self.text, " {time}");
             }
             "COUNT" => {
@@ -148,7 +129,7 @@ impl Maker<'_> {
             "CAPACITY" if classed || !self.dice.once_in(4) => {
                 let _ = write!(self.text, " SIZE {size}");
                 if classed && self.dice.once_in(2) {
-                    let order = self.dice.pick(&["lifo", "least a", "most b"]);
+                    let order = self.dice.one(&["lifo", "least a", "most b"]);
                     let _ = write!(self.text, " ORDER {order}");
                 }
             }
@@ -183,7 +164,7 @@ impl Maker<'_> {
                 let _ = write!(self.text, " UNTIL {condition}");
             }
             if self.dice.once_in(2) {
-                let time = self.dice.pick(&TIMES);
+                let time = self.dice.one(&TIMES);
                 let _ = write!(self.text, " WITHIN {time}");
             }
         }
@@ -191,20 +172,20 @@ impl Maker<'_> {
         let acts =
             matches!(kind, "OPERATION" | "SIGNAL") || (matches!(kind, "PROCESS" | "GENERATE") && self.dice.once_in(2));
         if acts {
-            let statement = self.dice.pick(&STATEMENTS);
+            let statement = self.dice.one(&STATEMENTS);
             let _ = writeln!(self.text, "DO {statement}");
             if classed {
                 let _ = writeln!(self.text, "DO p{index}.a = p{index}.a + x2");
             }
         }
         if kind == "PROCESS" && self.dice.once_in(2) {
-            let answer = self.dice.pick(&["NOT p.cause", "x1", "p.cause OR x0"]).replace("p.", &format!("p{index}."));
+            let answer = self.dice.one(&["NOT p.cause", "x1", "p.cause OR x0"]).replace("p.", &format!("p{index}."));
             let _ = writeln!(self.text, "AFTER p{index}.ready = {answer}");
         }
     }
 
     fn inner(&mut self) {
-        let code = self.dice.pick(&["mac", "nest"]);
+        let code = self.dice.one(&["mac", "nest"]);
         let _ = writeln!(self.text, "MACRO M : y1, w1 = {code} ( x1 : )");
         if self.dice.once_in(2) {
             let free = (0..self.kinds.len()).find(|i| !self.classed[*i]);
@@ -259,7 +240,7 @@ impl Maker<'_> {
             let _ = write!(self.text, " PRIORITY {}", self.dice.roll(5) as i64 - 2);
         }
         if self.dice.once_in(4) {
-            let _ = write!(self.text, " PERMIT {}", self.dice.pick(&PERMISSIVES));
+            let _ = write!(self.text, " PERMIT {}", self.dice.one(&PERMISSIVES));
         }
         let same = before.first().is_some_and(|(first, _)| {
             let class = self.classed[*first];
@@ -273,7 +254,7 @@ impl Maker<'_> {
             }
             self.text.push('\n');
             if self.dice.once_in(3) {
-                let statement = self.dice.pick(&STATEMENTS);
+                let statement = self.dice.one(&STATEMENTS);
                 let _ = writeln!(self.text, "DO {statement}");
             }
             return;
@@ -315,7 +296,7 @@ impl Maker<'_> {
                 let _ = writeln!(self.text, "THEN NEW -> {}", rest.join(", "));
             }
             if self.dice.once_in(3) {
-                let statement = self.dice.pick(&STATEMENTS);
+                let statement = self.dice.one(&STATEMENTS);
                 let _ = writeln!(self.text, "DO {statement}");
             }
             if let (Some(place), true) = (holder, self.dice.once_in(3)) {
@@ -348,7 +329,7 @@ pub fn stimulus(dice: &mut Dice, scans: u64) -> String {
             }
         }
         if dice.once_in(5) {
-            real = dice.pick(&["0.", "0.1", "0.4", "0.9", "2.5", "-1."]);
+            real = dice.one(&["0.", "0.1", "0.4", "0.9", "2.5", "-1."]);
         }
         let [x0, x1, x2, x3] = ints;
         let _ = writeln!(text, "{scan},{x0},{x1},{x2},{real},{x3}");

@@ -2,21 +2,12 @@
 
 use pcl2_tests::cases;
 use pcl2_tests::compilers::{check, folder};
+use pcl2_tests::dice::Dice;
 use pcl2_tests::picture::{Diagram, Piece, diagram, lies_on, overlap, runs_along, runs_through, touch};
 use pcl2_tests::{none, pcl2, root, run};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-
-/// Pseudo-random numbers, the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        usize::try_from(self.0 >> 33).unwrap() % limit
-    }
-}
 
 /// A generated program: its text, and how many ports read a signal.
 struct Generated {

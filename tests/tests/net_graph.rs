@@ -2,6 +2,7 @@
 //! picture.
 
 use pcl2_tests::compilers::{check, folder};
+use pcl2_tests::dice::Dice;
 use pcl2_tests::fences::{examples, fences};
 use pcl2_tests::net_picture::{NetPicture, net_picture};
 use pcl2_tests::picture::{Area, overlap, runs_through, touch};
@@ -9,16 +10,6 @@ use pcl2_tests::{none, pcl2, root, run};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-
-/// Pseudo-random numbers, the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        usize::try_from(self.0 >> 33).unwrap() % limit
-    }
-}
 
 /// A generated net: its text, its boxes, its gates, and its arcs as gate, kind and box with weight.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! Random nets of buffers against the definition of a scan, written down here once more, and the state equation.
 
+use pcl2_tests::dice::Dice;
 use pcl2_tests::nets::{column, read, run_in};
-use pcl2_tests::random_nets::Dice;
 use std::fmt::Write;
 use std::fs;
 
@@ -125,7 +125,7 @@ impl Plain {
 /// state equation.
 #[test]
 fn random_nets_do_what_the_definition_says() {
-    let mut dice = Dice::new(20_261_129);
+    let mut dice = Dice(20_261_129);
     let scans = 60;
     let mut moved = 0;
     for number in 0..250 {

@@ -7,6 +7,7 @@ use pcl2_lang::symbol::Symbols;
 use pcl2_net::flat::{Flat, flat};
 use pcl2_net::pt::{PtNet, Transition};
 use pcl2_net::structure::step::maximal_step;
+use pcl2_tests::dice::Dice;
 use pcl2_tests::{pcl2, root, run};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -218,38 +219,25 @@ END
     assert!(why.contains("macro `M`: expected at most 4096 markings"), "{why}");
 }
 
-/// A small generator of numbers: the same nets everywhere.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % sides
-    }
-
-    fn one<'t>(&mut self, of: &[&'t str]) -> &'t str {
-        of[self.roll(of.len())]
-    }
-
-    fn some<'t>(&mut self, of: &[&'t str], most: usize) -> Vec<&'t str> {
-        let mut chosen: Vec<&str> = Vec::new();
-        for _ in 0..self.roll(most + 1) {
-            let one = self.one(of);
-            if !chosen.contains(&one) {
-                chosen.push(one);
-            }
+/// Some of a list, each once.
+fn some<'t>(dice: &mut Dice, of: &[&'t str], most: usize) -> Vec<&'t str> {
+    let mut chosen: Vec<&str> = Vec::new();
+    for _ in 0..dice.below(most + 1) {
+        let one = dice.one(of);
+        if !chosen.contains(&one) {
+            chosen.push(one);
         }
-        chosen
     }
+    chosen
 }
 
 /// A condition over inputs and boxes.
 fn condition(dice: &mut Dice, boxes: &[&str], depth: usize) -> String {
     let inner = |dice: &mut Dice| condition(dice, boxes, depth + 1);
-    match if depth > 1 { dice.roll(4) } else { dice.roll(7) } {
+    match if depth > 1 { dice.below(4) } else { dice.below(7) } {
         0 => dice.one(&["x0", "x1"]).to_owned(),
         1 => format!("NOT {}", dice.one(boxes)),
-        2 => format!("{} {} {}", dice.one(boxes), dice.one(&["==", ">=", "<", "<>"]), dice.roll(3)),
+        2 => format!("{} {} {}", dice.one(boxes), dice.one(&["==", ">=", "<", "<>"]), dice.below(3)),
         3 => dice.one(boxes).to_owned(),
         4 => format!("NOT ({})", inner(dice)),
         5 => format!("({}) OR ({})", inner(dice), inner(dice)),
@@ -259,19 +247,19 @@ fn condition(dice: &mut Dice, boxes: &[&str], depth: usize) -> String {
 
 /// A gate between boxes; it may look at others. COUNT boxes are those with a `k` at their start.
 fn gate(dice: &mut Dice, name: &str, boxes: &[&str], seen: &[&str]) -> String {
-    let mut before = dice.some(boxes, 2);
+    let mut before = some(dice, boxes, 2);
     if before.is_empty() {
         before.push(dice.one(boxes));
     }
-    let after = dice.some(boxes, 2);
+    let after = some(dice, boxes, 2);
     let mut text = format!("GATE {name} : {} -> {}", before.join(", "), after.join(", "));
     for word in ["READ", "INHIBIT"] {
-        if dice.roll(4) == 0 {
+        if dice.below(4) == 0 {
             let _ = write!(text, " {word} {}", dice.one(seen));
         }
     }
-    let _ = write!(text, " PRIORITY {}", dice.roll(2));
-    if dice.roll(5) == 0 {
+    let _ = write!(text, " PRIORITY {}", dice.below(2));
+    if dice.below(5) == 0 {
         let _ = write!(text, " PERMIT ({})", condition(dice, seen, 1));
     }
     text.push('\n');
@@ -283,14 +271,14 @@ fn gate(dice: &mut Dice, name: &str, boxes: &[&str], seen: &[&str]) -> String {
         }
         lines
     };
-    match dice.roll(3) {
+    match dice.below(3) {
         0 => {}
         1 => {
             let _ = writeln!(text, "IF {}", condition(dice, seen, 0));
         }
         _ => {
             let _ = write!(text, "IF {}\n{}", condition(dice, seen, 0), then(&after));
-            if dice.roll(2) == 0 {
+            if dice.below(2) == 0 {
                 let _ = write!(text, "IF {}\n{}", condition(dice, seen, 0), then(&[]));
             }
             let _ = write!(text, "ELSE\n{}", then(&after[..after.len().min(1)]));
@@ -323,13 +311,13 @@ fn random(dice: &mut Dice) -> [(&'static str, String); 3] {
         ("s", "GENERATE s SIZE 2 WHEN x2\n"),
         ("s", "CAPACITY s\n"),
     ];
-    for (name, line) in [others[dice.roll(4)], others[4 + dice.roll(3)]] {
+    for (name, line) in [others[dice.below(4)], others[4 + dice.below(3)]] {
         boxes.push(name);
         outer += line;
     }
     outer += "MACRO M = inner ( x0, x1 : )\n";
     let seen: Vec<&str> = boxes.iter().copied().chain(["M", "M.a", "M.b", "V.on"]).collect();
-    if dice.roll(2) == 0 {
+    if dice.below(2) == 0 {
         let _ = writeln!(outer, "ABORT {} -> {}", condition(dice, &seen, 1), dice.one(&["p", "q"]));
     }
     outer += "MODULE V = module ( x0, x1 : )\n";
@@ -415,7 +403,7 @@ fn what_the_player_does_the_abstraction_can_do() {
         let net = flat.for_scans().expect("few GENERATE boxes");
         let mut stimulus = "k,x0,x1,x2\n0,0,0,0\n".to_owned();
         for k in 1..SCANS {
-            let _ = writeln!(stimulus, "{k},{},{},{}", dice.roll(2), dice.roll(2), dice.roll(2));
+            let _ = writeln!(stimulus, "{k},{},{},{}", dice.below(2), dice.below(2), dice.below(2));
         }
         let folder = written(&texts, &stimulus);
         let trace = played(folder.path(), "outer.net");
@@ -482,7 +470,7 @@ fn random_nets_do_the_same_when_they_are_flat() {
         let texts: Vec<(&str, &str)> = nets.iter().map(|(name, text)| (*name, text.as_str())).collect();
         let mut stimulus = "k,x0,x1,x2\n".to_owned();
         for k in 0..SCANS {
-            let _ = writeln!(stimulus, "{k},{},{},{}", dice.roll(2), dice.roll(2), dice.roll(2));
+            let _ = writeln!(stimulus, "{k},{},{},{}", dice.below(2), dice.below(2), dice.below(2));
         }
         let folder = written(&texts, &stimulus);
         match flat_file(folder.path(), "outer.net") {

@@ -2,7 +2,7 @@
 //!
 //! `PCL2_RANDOM_NETS` is how many nets are compared; `cargo xtask nets` sets it for the long form.
 
-use pcl2_tests::random_nets::{Dice, INNER, configuration, net, stimulus};
+use pcl2_tests::random_nets::{INNER, configuration, dice, net, stimulus};
 use pcl2_tests::{pcl2, run};
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ const BATCH: usize = 50;
 const SCANS: u64 = 1000;
 
 fn batch(folder: &Path, seed: u64) {
-    let mut dice = Dice::new(seed);
+    let mut dice = dice(seed);
     for (name, text) in INNER {
         fs::write(folder.join(name), text).unwrap();
     }

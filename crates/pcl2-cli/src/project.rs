@@ -161,7 +161,16 @@ pub(crate) fn load_draft(path: &Path, common: &CommonArgs, renumber: bool) -> Dr
 
 /// Loads a program for a command that needs it whole: prints the diagnostics, and stops at errors.
 pub(crate) fn load_verified(path: &Path, common: &CommonArgs) -> Result<(Project, Verified), Outcome> {
-    let mut project = load_for(path, common, Use::Run, None)?;
+    whole(path, common, Use::Run)
+}
+
+/// The same where a period need not be known.
+pub(crate) fn load_checked(path: &Path, common: &CommonArgs) -> Result<(Project, Verified), Outcome> {
+    whole(path, common, Use::Check)
+}
+
+fn whole(path: &Path, common: &CommonArgs, purpose: Use) -> Result<(Project, Verified), Outcome> {
+    let mut project = load_for(path, common, purpose, None)?;
     console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
     match project.verified.take() {
         Some(verified) => Ok((project, verified)),

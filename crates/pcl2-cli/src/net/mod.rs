@@ -103,9 +103,7 @@ pub(crate) fn load_flat(path: &Path, blocks: &[PathBuf]) -> Result<Flat, Outcome
 /// Reads and checks a .net file with all nets inside it.
 fn load_project(path: &Path, blocks: &[PathBuf]) -> Result<Project, Outcome> {
     let common = CommonArgs { blocks: blocks.to_vec(), ..CommonArgs::default() };
-    let project = project::load(path, &common)?;
-    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
-    if project.verified.is_some() { Ok(project) } else { Err(Outcome::Errors) }
+    project::load_checked(path, &common).map(|(project, _)| project)
 }
 
 fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {

@@ -2,7 +2,6 @@
 
 use super::refuse;
 use crate::args::CommonArgs;
-use crate::console;
 use crate::outcome::Outcome;
 use crate::output::Pending;
 use crate::project;
@@ -29,13 +28,9 @@ pub(crate) struct ReportArgs {
 
 /// Writes the documentation of a net.
 pub(crate) fn report(args: &ReportArgs) -> Outcome {
-    let project = match project::load(&args.path, &args.common) {
-        Ok(project) => project,
+    let (project, verified) = match project::load_checked(&args.path, &args.common) {
+        Ok(loaded) => loaded,
         Err(outcome) => return outcome,
-    };
-    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
-    let Some(verified) = &project.verified else {
-        return Outcome::Errors;
     };
     let Some(written) = project.net() else {
         return refuse(&args.path, "expected a net, found a configuration: name the .net file");

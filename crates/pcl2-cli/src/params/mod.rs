@@ -36,13 +36,9 @@ pub(crate) struct ParamsArgs {
 
 /// Lists, compares or saves parameters.
 pub(crate) fn params(args: &ParamsArgs) -> Outcome {
-    let mut project = match project::load(&args.path, &args.common) {
-        Ok(project) => project,
+    let (project, verified) = match project::load_checked(&args.path, &args.common) {
+        Ok(loaded) => loaded,
         Err(outcome) => return outcome,
-    };
-    console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
-    let Some(verified) = project.verified.take() else {
-        return Outcome::Errors;
     };
     match &args.from {
         None => {
