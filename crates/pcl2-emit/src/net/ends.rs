@@ -47,7 +47,7 @@ pub(super) fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
 ",
             if waits { " else " } else { "            " }
         );
-        if keeps("drives") {
+        if keeps("shown") {
             show(out, net);
         }
         out.push_str("        }\n    }\n");
@@ -117,10 +117,6 @@ fn outputs(out: &mut String, net: &NetBody<'_, '_, '_>) {
 
 fn show(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
-    let facts = &net.layout.facts;
-    if facts.driven.iter().zip(&facts.late).all(|(list, late)| list.is_empty() || !late) {
-        return;
-    }
     let _ = write!(
         out,
         "            const int32_t marked = self->box[place] > 0;

@@ -243,6 +243,11 @@ impl NetFacts {
         !self.driven[place].is_empty() && !self.late[place]
     }
 
+    /// Whether a box drives outputs and is looked at when the phase ends.
+    pub(crate) fn shows_late(&self) -> bool {
+        self.driven.iter().zip(&self.late).any(|(driven, late)| !driven.is_empty() && *late)
+    }
+
     /// Whether any gate waits for an input.
     pub(crate) fn has_literals(&self) -> bool {
         self.literals.iter().any(Option::is_some)

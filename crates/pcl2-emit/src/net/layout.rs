@@ -288,7 +288,7 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add_if(facts.has_literals(), "open", "uint32_t", sets(net.gates.len()));
     fields.add("touched", "uint32_t", sets(boxes));
     fields.add_if(waits, "waiting", "uint32_t", sets(boxes));
-    fields.add_if(!facts.levels.is_empty(), "shown", "uint32_t", sets(boxes));
+    fields.add_if(facts.shows_late(), "shown", "uint32_t", sets(boxes));
     fields.add("drives", "int32_t", Some(facts.levels.len()));
     let counted = (0..boxes).any(|place| facts.counts_at_once(place));
     fields.add_if(counted, "outputs", "uint32_t", sets(facts.levels.len()));
