@@ -50,9 +50,12 @@ static void net_finish(struct pcl2_net *net, int32_t b, const pcl2_net_word *aft
 }
 
 /* Whether a box has had its token for the time that a statement gives. */
-static int32_t net_has_passed(const struct pcl2_net *net, int32_t b, int32_t statement)
+static int32_t net_has_passed(struct pcl2_net *net, int32_t b, int32_t statement)
 {
-    return pcl2_net_over(net->now - net->since[b], net->duration(net, statement));
+    net_lend(net, statement);
+    const int64_t time = net->duration(net, statement);
+    net_release(net, statement);
+    return pcl2_net_over(net->now - net->since[b], time);
 }
 
 static void net_process(struct pcl2_net *net, int32_t b, const pcl2_net_word *more)
@@ -96,10 +99,9 @@ static void net_generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *b
         net->hold[b] = net->box[b] + 1;
         net->box[b] += 1;
         for (int32_t i = 1; i <= more[1]; i++) {
-            (void)net_act(net, more[1 + i], 0);
-            net->hold[b] = net->box[b];
+            (void)net_run(net, more[1 + i], 0);
         }
-        net->hold[b] = 0;
+        net->hold[b] = PCL2_NET_NOT_HELD;
         waiting = 0;
     }
     net->phase[b] = now | (waiting << 1);
@@ -283,7 +285,7 @@ static int32_t net_satisfied(struct pcl2_net *net, const struct net_rule *rule, 
         net_load(net, net_box_record(net, b), place);
         at++;
         if (at < n) {
-            net->hold[rule->looks[at + 1]] = 0;
+            net->hold[rule->looks[at + 1]] = PCL2_NET_NOT_HELD;
         }
     }
     return 0;
@@ -292,7 +294,7 @@ static int32_t net_satisfied(struct pcl2_net *net, const struct net_rule *rule, 
 static void net_let_go(struct pcl2_net *net, const struct net_rule *rule)
 {
     for (int32_t i = 1; i <= rule->looks[0]; i++) {
-        net->hold[rule->looks[i]] = 0;
+        net->hold[rule->looks[i]] = PCL2_NET_NOT_HELD;
     }
     if (rule->condition != 0) {
         net_release(net, rule->condition - 1);
@@ -328,7 +330,7 @@ static void net_take(struct pcl2_net *net, const pcl2_net_word *arc)
             memcpy(net_hand_at(net, box[7] + i), from, real ? sizeof(pcl2_real) : sizeof(int32_t));
         }
         net->taken[arc[0]] += 1;
-        net->hold[arc[0]] = -1;
+        net->hold[arc[0]] = PCL2_NET_ON_ITS_WAY;
         return;
     }
     const int32_t held = net->hold[arc[0]];
@@ -339,7 +341,7 @@ static void net_take(struct pcl2_net *net, const pcl2_net_word *arc)
         }
         net_remove_token(net, arc[0], i == 0 ? place : 0);
     }
-    net->hold[arc[0]] = -1;
+    net->hold[arc[0]] = PCL2_NET_ON_ITS_WAY;
 }
 
 /* A token goes from the hand of one box into another. */
@@ -378,10 +380,9 @@ static void net_move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, con
     for (int32_t i = 0; i < rule->moves[0]; i++, move += 2 + move[1]) {
         for (int32_t j = 0; move[0] == 0 && j < move[1]; j++) {
             const int32_t b = afters[2 * move[2 + j]];
-            const int32_t busy = net->hold[b] < 0;
-            if (!busy) {
+            if (net->hold[b] != PCL2_NET_ON_ITS_WAY) {
                 net_fresh(net, net_box_record(net, b));
-                net->hold[b] = -1;
+                net->hold[b] = PCL2_NET_ON_ITS_WAY;
             }
         }
     }
@@ -395,7 +396,7 @@ static void net_move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, con
         }
     }
     for (int32_t i = 0; i < gate[0] + gate[1]; i++) {
-        net->hold[befores[2 * i]] = 0;
+        net->hold[befores[2 * i]] = PCL2_NET_NOT_HELD;
     }
 }
 
@@ -480,7 +481,9 @@ static void net_abort_part(struct pcl2_net *net, int32_t part)
     net_empty(net_inside(net, part));
     net_load(net, net_box_record(net, macro), 0);
     net->taken[macro] = 1;
+    net->hold[macro] = PCL2_NET_ON_ITS_WAY;
     net_run_all(net, record + 6, 0);
+    net->hold[macro] = PCL2_NET_NOT_HELD;
     net_put(net, macro, arc, 1, 0);
 }
 
@@ -714,6 +717,37 @@ static void net_hand_out(const struct pcl2_net *net)
 {
     if (net->outer != NULL && *net->outer->status == 0) {
         *net->outer->status = *net->status;
+    }
+}
+
+/* Takes the inputs in. A net inside has the mode and the time of the one around it unless it has a mode of its own. */
+static void net_begin(struct pcl2_net *net, int64_t now)
+{
+    const pcl2_net_word *modes = net_modes(net);
+    const int32_t n = net->table[PCL2_NET_N_WORDS];
+    *net->status = 0;
+    net->blocked = 0;
+    net->switched = 0;
+    net->now = now;
+    net->mode = PCL2_NET_AUTOMATIC;
+    if (n != 0) {
+        memset(net->wrote, 0, (size_t)n * sizeof *net->wrote);
+    }
+    if (net->outer != NULL) {
+        net_lend(net->outer, net->inputs);
+        (void)net->outer->act(net->outer, net->inputs);
+        net_release(net->outer, net->inputs);
+        net->now = net->outer->now;
+        net->mode = net->outer->mode;
+    }
+    if (modes != NULL) {
+        net->now = now - *net->stood;
+        net->mode = net_mode(net, modes);
+        if (*net->halted) {
+            net_swap(net, modes);
+        } else if (net->mode == PCL2_NET_STOPPED) {
+            net_hold(net, modes);
+        }
     }
 }
 

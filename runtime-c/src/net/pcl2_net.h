@@ -40,6 +40,12 @@ enum {
     PCL2_NET_STOPPED
 };
 
+/* The token in hand of a box: k + 1 that of place k, which a gate chose or a box made; PCL2_NET_LENT - k that of place k,
+ * lent to a statement. */
+#define PCL2_NET_NOT_HELD 0
+#define PCL2_NET_ON_ITS_WAY (-1)
+#define PCL2_NET_LENT (-2)
+
 /* A word of a table: none is negative. */
 #ifndef PCL2_NET_WORD
 #define PCL2_NET_WORD int32_t
@@ -57,7 +63,7 @@ struct pcl2_net {
     int32_t *used;                 /* by box: room used in this phase; else 0 */
     int32_t *phase;                /* by box: what it has done since the token came, and four times the gate that put it */
     int32_t *by;                   /* by box: the gate that put a token in this phase */
-    int32_t *hold;                 /* by box: 0 no token in hand, k + 1 that of place k, -1 one on its way */
+    int32_t *hold;                 /* by box: the token in hand, see PCL2_NET_NOT_HELD */
     int64_t *since;                /* by box: when its time began, nanoseconds */
     int32_t *ints;                 /* attributes of all tokens that are ints, place by place */
     pcl2_real *reals;              /* those that are reals */
@@ -66,7 +72,7 @@ struct pcl2_net {
     int32_t *wrote;                /* by word: 0 as before the scan, the gate that wrote it, from 1, -1 counted on */
     int32_t *active;               /* by ACTIVE line: what was marked in the last scan */
     int64_t *active_since;         /* by ACTIVE line: since when, nanoseconds */
-    const struct pcl2_net *outer;  /* the net around it, or NULL */
+    struct pcl2_net *outer;        /* the net around it, or NULL */
     int32_t inputs;                /* the statement of the net around it that takes the inputs in */
     int64_t now;                   /* the time of the scan, nanoseconds; it stands while the net is stopped */
     int32_t mode;                  /* of the scan; a step that was commanded is automatic */

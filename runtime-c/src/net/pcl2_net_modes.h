@@ -109,35 +109,6 @@ static void net_hold(struct pcl2_net *net, const pcl2_net_word *modes)
     }
 }
 
-/* Takes the inputs in. A net inside has the mode and the time of the one around it unless it has a mode of its own. */
-static void net_begin(struct pcl2_net *net, int64_t now)
-{
-    const pcl2_net_word *modes = net_modes(net);
-    const int32_t n = net->table[PCL2_NET_N_WORDS];
-    *net->status = 0;
-    net->blocked = 0;
-    net->switched = 0;
-    net->now = now;
-    net->mode = PCL2_NET_AUTOMATIC;
-    if (n != 0) {
-        memset(net->wrote, 0, (size_t)n * sizeof *net->wrote);
-    }
-    if (net->outer != NULL) {
-        (void)net->outer->act(net->outer, net->inputs);
-        net->now = net->outer->now;
-        net->mode = net->outer->mode;
-    }
-    if (modes != NULL) {
-        net->now = now - *net->stood;
-        net->mode = net_mode(net, modes);
-        if (*net->halted) {
-            net_swap(net, modes);
-        } else if (net->mode == PCL2_NET_STOPPED) {
-            net_hold(net, modes);
-        }
-    }
-}
-
 /* A stopped net shows what its outputs are meanwhile, and its time stands. */
 static void net_end(struct pcl2_net *net, int64_t period)
 {

@@ -34,19 +34,39 @@ static const pcl2_net_word *net_looks(const struct pcl2_net *net, int32_t script
     return counts + counts[0] + 1;
 }
 
+/* Tokens that nobody holds are lent to a statement that looks at them: the first of each box. Where there is none the
+ * hand has what a new token has. */
+static void net_lend(struct pcl2_net *net, int32_t script)
+{
+    const pcl2_net_word *looks = net_looks(net, script);
+    for (int32_t i = 1; i <= looks[0]; i++) {
+        const int32_t b = looks[i];
+        if (net->hold[b] == PCL2_NET_NOT_HELD) {
+            const pcl2_net_word *box = net_box_record(net, b);
+            const int32_t first = net_next_token(net, b, -1);
+            net_load(net, box, first < 0 ? box[2] : first);
+            net->hold[b] = first < 0 ? PCL2_NET_NOT_HELD : PCL2_NET_LENT - first;
+        }
+    }
+}
+
+/* What a statement made of a token that it looked at goes back to its place. */
+static void net_give_back(struct pcl2_net *net, int32_t b)
+{
+    const int32_t hold = net->hold[b];
+    if (hold > 0 || hold <= PCL2_NET_LENT) {
+        const pcl2_net_word *box = net_box_record(net, b);
+        net_store(net, box, box, hold > 0 ? hold - 1 : PCL2_NET_LENT - hold);
+    }
+}
+
 /* Runs a statement for a gate. Tokens that it looks at are in hand meanwhile. */
 static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
 {
     const pcl2_net_word *targets = net_record(net, PCL2_NET_SCRIPTS, script), *counts = targets + targets[0] + 1;
     const pcl2_net_word *looks = net_looks(net, script);
     pcl2_real before[NET_MOST_TARGETS];
-    for (int32_t i = 1; i <= looks[0]; i++) {
-        const int32_t first = net->hold[looks[i]] == 0 ? net_next_token(net, looks[i], -1) : -1;
-        if (first >= 0) {
-            net->hold[looks[i]] = first + 1;
-            net_load(net, net_box_record(net, looks[i]), first);
-        }
-    }
+    net_lend(net, script);
     for (int32_t i = 0; i < targets[0]; i++) {
         net_keep(net, targets[i + 1], &before[i], 0);
     }
@@ -58,21 +78,18 @@ static int32_t net_act(struct pcl2_net *net, int32_t script, int32_t gate)
         pcl2_net_counted(&net->wrote[counts[i]]);
     }
     for (int32_t i = 1; i <= looks[0]; i++) {
-        if (net->hold[looks[i]] > 0) {
-            const pcl2_net_word *box = net_box_record(net, looks[i]);
-            net_store(net, box, box, net->hold[looks[i]] - 1);
-        }
+        net_give_back(net, looks[i]);
     }
     return result;
 }
 
-/* Lets go of the tokens that a statement looked at. */
+/* Takes back the tokens that were lent to a statement. */
 static void net_release(struct pcl2_net *net, int32_t script)
 {
     const pcl2_net_word *looks = net_looks(net, script);
     for (int32_t i = 1; i <= looks[0]; i++) {
-        if (net->hold[looks[i]] > 0) {
-            net->hold[looks[i]] = 0;
+        if (net->hold[looks[i]] <= PCL2_NET_LENT) {
+            net->hold[looks[i]] = PCL2_NET_NOT_HELD;
         }
     }
 }

@@ -1,0 +1,58 @@
+//! Which token a statement of a net sees, and which one a gate takes.
+
+use pcl2_tests::nets::{column, traced};
+
+/// A time may be an attribute of the token that it holds back.
+#[test]
+fn a_time_is_an_attribute_of_its_token() {
+    let net = "= late ( : )
+CLASS c ( real d = 1. )
+CAPACITY queue SIZE 3 OF c MARKED ( d = 2. )
+TIME hold hold.d OF c
+STATE done OF c
+GATE g : queue -> hold
+GATE h : hold -> done
+END
+";
+    let trace = traced(&[("late.net", net)], "", &["--steps", "7", "--period", "0.5"]);
+    assert_eq!(column(&trace, "late.hold"), [1., 1., 1., 1., 0., 0., 0.]);
+}
+
+/// An argument of a net inside may be an attribute: of the first token, or of a new one where there is none.
+#[test]
+fn an_argument_is_an_attribute_of_the_first_token() {
+    let outer = "real r = outer ( int go : )
+CLASS c ( real d = 0.5 )
+CAPACITY queue SIZE 3 OF c MARKED ( d = 2. )
+MODULE M : r = inner ( queue.d : )
+GATE g : queue -> IF go
+END
+";
+    let inner =
+        "real r = inner ( real d : )\nSTATE a MARKED\nOPERATION b DO r = d\nGATE g : a -> b\nGATE h : b -> a\nEND\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], "k,go\n0,0\n3,1\n", &["--steps", "7"]);
+    assert_eq!(column(&trace, "r"), [0., 2., 2., 2., 2., 0.5, 0.5]);
+}
+
+/// A permissive and all statements of a gate see the token that its condition chose, and this one goes.
+#[test]
+fn a_gate_keeps_to_the_token_that_it_chose() {
+    let net = "int told, int seen, int again = chosen ( int n, int in : )
+CLASS c ( int n = 0, int m = 7 )
+GENERATE make OF c SIZE 1 WHEN in DO make.n = n
+CAPACITY wait OF c SIZE 5
+STATE board OF c MARKED ( n = 2, m = 8 )
+OPERATION show OF c DO told = show.n
+GATE g1 : make -> wait
+GATE g2 : wait -> show READ board PERMIT wait.n > 1 IF wait.n == board.n
+DO seen = wait.n + board.m
+DO again = wait.n + board.m
+END
+";
+    let stimulus = "k,n,in\n0,1,1\n1,1,0\n2,2,1\n3,2,0\n4,3,1\n5,3,0\n";
+    let trace = traced(&[("chosen.net", net)], stimulus, &["--steps", "8"]);
+    assert_eq!(column(&trace, "chosen.wait"), [1., 1., 2., 1., 2., 2., 2., 2.]);
+    assert_eq!(column(&trace, "told"), [0., 0., 0., 0., 2., 2., 2., 2.]);
+    assert_eq!(column(&trace, "seen"), [0., 0., 0., 10., 10., 10., 10., 10.]);
+    assert_eq!(column(&trace, "again"), column(&trace, "seen"));
+}
