@@ -57,6 +57,19 @@ static inline int32_t pcl2_net_in(const uint32_t *sets, int32_t member)
     return (int32_t)(sets[member >> 5] >> (member & 31) & 1);
 }
 
+/* The value by which tokens are ordered; one that is no number goes last. */
+static inline pcl2_real pcl2_net_key(pcl2_real value)
+{
+    return value == value ? value : PCL2_REAL_MAX;
+}
+
+/* Closes the gap that a token leaves among n. */
+static inline void pcl2_net_close_gap(void *tokens, size_t size, int32_t place, int32_t n)
+{
+    char *gap = (char *)tokens + size * (size_t)place;
+    memmove(gap, gap + size, size * (size_t)(n - place - 1));
+}
+
 /* Counts up; stops at 2^31 - 1. */
 static inline void pcl2_net_count(int32_t *counter)
 {

@@ -9,7 +9,7 @@ pub fn dice(seed: u64) -> Dice {
 }
 
 /// Nets that stand inside others: a macro, one with a macro inside, a module. File name and text.
-pub const INNER: [(&str, &str); 3] = [
+pub const INNER: [(&str, &str); 4] = [
     (
         "mac.net",
         "int out, int n = mac ( int x : real length = 0.6 )\nENTRY come\nTIME flow length DRIVES out\nEXIT gone\n\
@@ -19,6 +19,12 @@ pub const INNER: [(&str, &str); 3] = [
         "nest.net",
         "int out, int n = nest ( int x : )\nLOCAL int m\nENTRY come\nEXIT gone\nMACRO I : out, m = mac ( x : length = 0.3 )\n\
          SIGNAL told DO n = m\nGATE a : come -> I\nGATE b : I -> told\nGATE c : told -> gone IF NOT x\nEND\n",
+    ),
+    (
+        "carry.net",
+        "int out, int n = carry ( int x, int more : )\nCLASS c ( int a = 1, real b = 0.5 )\nENTRY come OF c\n\
+         PROCESS work OF c DRIVES out UNTIL x\nDO work.a = work.a + more\nEXIT gone OF c\nGATE a : come -> work\n\
+         DO n = n + come.a\nGATE b : work -> gone\nDO work.b = work.b - 0.25\nEND\n",
     ),
     (
         "device.net",
@@ -119,6 +125,9 @@ impl Maker<'_> {
         let _ = write!(self.text, "{kind} p{index}");
         let size = 1 + self.dice.roll(4);
         match kind {
+            "TIME" if classed && self.dice.once_in(2) => {
+                let _ = write!(self.text, " p{index}.b");
+            }
             "TIME" => {
                 let time = self.dice.one(&TIMES);
                 let _ = write!(self.text, " {time}");
@@ -185,10 +194,21 @@ impl Maker<'_> {
     }
 
     fn inner(&mut self) {
-        let code = self.dice.one(&["mac", "nest"]);
-        let _ = writeln!(self.text, "MACRO M : y1, w1 = {code} ( x1 : )");
+        let carried = self.classed.iter().position(|classed| *classed);
+        match carried.filter(|_| self.dice.once_in(2)) {
+            Some(carrier) => {
+                let _ = writeln!(self.text, "MACRO M : y1, w1 = carry ( x1, p{carrier}.a : )");
+                self.classed.push(true);
+            }
+            None => {
+                let code = self.dice.one(&["mac", "nest"]);
+                let _ = writeln!(self.text, "MACRO M : y1, w1 = {code} ( x1 : )");
+                self.classed.push(false);
+            }
+        }
         if self.dice.once_in(2) {
-            let free = (0..self.kinds.len()).find(|i| !self.classed[*i]);
+            let class = self.classed.last().copied();
+            let free = (0..self.kinds.len()).find(|i| Some(self.classed[*i]) == class);
             let condition = self.condition();
             if let Some(free) = free {
                 let _ = writeln!(self.text, "ABORT {condition} -> p{free}\nDO w0 = 7");
@@ -196,8 +216,14 @@ impl Maker<'_> {
         }
         self.text.push_str("MODULE D : y2, s1, t1 = device ( x0, v : )\n");
         self.kinds.push("MACRO");
-        self.classed.push(false);
         self.sizes.push(1);
+    }
+
+    /// Some box whose tokens carry attributes, in half of the cases where there is one.
+    fn carrier(&mut self) -> Option<String> {
+        let carriers: Vec<usize> = (0..self.classed.len()).filter(|place| self.classed[*place]).collect();
+        let wanted = !carriers.is_empty() && self.dice.once_in(2);
+        wanted.then(|| self.dice.roll(carriers.len() as u64)).map(|chosen| self.name(carriers[chosen as usize]))
     }
 
     fn name(&self, index: usize) -> String {
@@ -241,6 +267,9 @@ impl Maker<'_> {
         }
         if self.dice.once_in(4) {
             let _ = write!(self.text, " PERMIT {}", self.dice.one(&PERMISSIVES));
+            if let Some(place) = self.carrier() {
+                let _ = write!(self.text, ", {place}.a > {}", self.dice.roll(3));
+            }
         }
         let same = before.first().is_some_and(|(first, _)| {
             let class = self.classed[*first];
@@ -270,7 +299,12 @@ impl Maker<'_> {
             let holder = before.iter().map(|(place, _)| *place).find(|place| self.classed[*place]);
             match holder {
                 Some(place) if self.dice.once_in(2) => {
-                    let _ = writeln!(self.text, "IF p{place}.a > {} OR x1", self.dice.roll(4));
+                    let place = self.name(place);
+                    let _ = write!(self.text, "IF {place}.a > {} OR x1", self.dice.roll(4));
+                    if let Some(other) = self.carrier() {
+                        let _ = write!(self.text, " AND {other}.b <= {place}.b");
+                    }
+                    self.text.push('\n');
                 }
                 _ if last && rules > 1 && self.dice.once_in(2) => self.text.push_str("ELSE\n"),
                 _ => {
@@ -300,7 +334,11 @@ impl Maker<'_> {
                 let _ = writeln!(self.text, "DO {statement}");
             }
             if let (Some(place), true) = (holder, self.dice.once_in(3)) {
-                let _ = writeln!(self.text, "DO p{place}.b = p{place}.b + v");
+                let place = self.name(place);
+                let _ = writeln!(self.text, "DO {place}.b = {place}.b + v");
+                if let Some(other) = self.carrier() {
+                    let _ = writeln!(self.text, "DO {other}.a = {other}.a + {place}.a - 1");
+                }
             }
         }
     }

@@ -1,10 +1,12 @@
 //! `NAME.h`: the instance and the three functions.
 
+use crate::NetForm;
 use crate::code::place_elements;
 use crate::context::Context;
 use crate::facts::element_scalar;
 use crate::io;
 use crate::layout::{self, Border, WHOLE};
+use crate::net::classes;
 use crate::shape::{self, Cold, Form, Shape};
 use crate::size;
 use pcl2_lang::kernel;
@@ -65,8 +67,9 @@ fn structs(out: &mut String, cx: &Context<'_>) {
     for cold in &cx.layout.colds {
         cold_struct(out, cold);
     }
+    let mut declared = Vec::new();
     for unit in layout::bodies(&cx.layout) {
-        body_struct(out, cx, unit);
+        body_struct(out, cx, unit, &mut declared);
     }
     for part in 0..cx.layout.parts.len() {
         part_struct(out, cx, part);
@@ -97,12 +100,17 @@ fn cold_struct(out: &mut String, cold: &Cold) {
     out.push_str("};\n\n");
 }
 
-fn body_struct(out: &mut String, cx: &Context<'_>, unit: UnitId) {
+fn body_struct<'c>(out: &mut String, cx: &'c Context<'_>, unit: UnitId, declared: &mut Vec<&'c str>) {
     let (body, layout) = (cx.program.unit(unit), cx.unit_layout(unit));
     let Some((decl, sizes)) = &body.composite else {
         return;
     };
     let decl = cx.program.decl(*decl);
+    let fast = layout.net.as_ref().filter(|net| net.form == NetForm::Fast);
+    let classes = decl.net.as_deref().zip(fast.map(|layout| &layout.names));
+    if let Some((net, names)) = classes {
+        classes::structs(out, net, names, declared);
+    }
     let _ = writeln!(out, "/* {}: what one instance keeps. */\nstruct {} {{", decl.name, layout.tag);
     let start = out.len();
     for (i, param) in decl.params.iter().enumerate().filter(|(i, _)| layout.facts.hot[*i]) {
@@ -116,8 +124,11 @@ fn body_struct(out: &mut String, cx: &Context<'_>, unit: UnitId) {
     for block in 0..body.blocks.len() {
         member(out, cx, unit, block, "    ");
     }
-    for slot in &layout.slots {
+    for slot in layout.slots.iter().filter(|slot| !slot.inside) {
         signal(out, &slot.name, body.signal(slot.signal).ty, "    ");
+    }
+    if let Some((net, names)) = classes {
+        classes::members(out, net, names);
     }
     if let Some(net) = &layout.net {
         out.push_str("    struct {\n");

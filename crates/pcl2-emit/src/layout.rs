@@ -4,6 +4,7 @@ use crate::NetForm;
 use crate::code::Code;
 use crate::facts::{self, Facts, Scratch};
 use crate::names::Namer;
+use crate::net::classes;
 use crate::net::layout::{self as nets, NetLayout};
 use crate::shape::{self, Cold, Extent, Form, Key, Shape};
 use pcl2_lang::decl::{Direction, Step};
@@ -56,6 +57,8 @@ pub(crate) struct Slot<'a> {
     pub(crate) signal: SignalId,
     /// Its part, or [`WHOLE`].
     pub(crate) part: u32,
+    /// It stands in a struct that is declared apart.
+    pub(crate) inside: bool,
 }
 
 /// The layout of one body.
@@ -157,6 +160,7 @@ const RESERVED_INSIDE: &[&str] = &[
     "bad",
     "changed",
     "cold",
+    "hand",
     "hot",
     "left",
     "net",
@@ -165,6 +169,7 @@ const RESERVED_INSIDE: &[&str] = &[
     "statement",
     "status",
     "iwork",
+    "tokens",
     "twork",
     "work",
 ];
@@ -203,6 +208,7 @@ struct Builder<'a, 'c> {
     kernels: Vec<Facts>,
     layout: Layout<'a>,
     shapes: FxHashMap<Key, u32>,
+    structs: classes::Structs,
 }
 
 impl<'a, 'c> Builder<'a, 'c> {
@@ -214,7 +220,7 @@ impl<'a, 'c> Builder<'a, 'c> {
         }
         let kernels = codes.iter().map(facts::of_kernel).collect();
         let layout = Layout { units, tags, ..Layout::default() };
-        Builder { program, name, codes, kernels, layout, shapes: FxHashMap::default() }
+        Builder { program, name, codes, kernels, layout, shapes: FxHashMap::default(), structs: Vec::new() }
     }
 
     fn mark_used(&mut self) {
@@ -254,7 +260,8 @@ impl<'a, 'c> Builder<'a, 'c> {
         let net = net.map(|net| {
             let scratch = std::mem::take(&mut facts.scratch);
             let boxes = net.boxes.iter().map(|place| self.layout.tags.made(&format!("{tag}_{}", place.name))).collect();
-            let layout = nets::layout(program, unit, net, &self.layout.units, scratch, boxes);
+            let names = classes::names(net, (self.name, &tag), &mut self.structs, &mut self.layout.tags);
+            let layout = nets::layout(program, unit, net, &self.layout.units, scratch, (boxes, names));
             facts.of_net(layout.timed);
             layout
         });
@@ -458,7 +465,7 @@ impl<'a, 'c> Builder<'a, 'c> {
                 shape::fields_extent(&mut extent, &self.layout.colds[cold].fields, width);
             }
         }
-        let types = layout.slots.iter().map(|slot| unit.signal(slot.signal).ty);
+        let types = layout.slots.iter().filter(|slot| !slot.inside).map(|slot| unit.signal(slot.signal).ty);
         for ty in types.chain(unit.cells.iter().map(|cell| cell.ty)) {
             extent.add(crate::size::of_type(ty, width), 1);
         }
@@ -466,8 +473,8 @@ impl<'a, 'c> Builder<'a, 'c> {
             crate::size::rest(&mut extent, self.program, &self.layout);
         } else {
             crate::size::own_params(&mut extent, self.program, unit, &layout.facts);
-            if let Some(net) = &layout.net {
-                nets::extent(&mut extent, net, width);
+            if let (Some(net), Some(layout)) = (nets::net_of(self.program, unit), &layout.net) {
+                nets::extent(&mut extent, net, layout, width);
             }
         }
         extent
@@ -622,7 +629,7 @@ fn slots<'a>(
                 Role::Port(port) => Cow::Owned(ports[port as usize].0.clone()),
                 Role::Wire | Role::Input | Role::Output | Role::Held => namer.name(&signal.name),
             };
-            slots.push(Slot { name, signal: SignalId(i as u32), part });
+            slots.push(Slot { name, signal: SignalId(i as u32), part, inside: false });
         }
     }
     slots.sort_by_key(|slot: &Slot<'_>| (slot.part != WHOLE, slot.part));

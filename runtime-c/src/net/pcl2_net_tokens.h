@@ -105,8 +105,7 @@ static pcl2_real net_key_of(const struct pcl2_net *net, const pcl2_net_word *box
     } else {
         key = net->reals[box[6] + place * reals + before[1]];
     }
-    key = box[3] == NET_ORDER_LEAST ? key : -key;
-    return key == key ? key : PCL2_REAL_MAX;
+    return pcl2_net_key(box[3] == NET_ORDER_LEAST ? key : -key);
 }
 
 /* The token that goes after another (-1: the first); -1: there is none. */
@@ -140,15 +139,12 @@ static void net_remove_token(struct pcl2_net *net, int32_t b, int32_t place)
     int32_t ints, reals;
     if (class != NULL) {
         net_sizes_of(class, &ints, &reals);
-        const size_t behind = (size_t)(n - place - 1);
         /* A net without attributes of a type has no array of it. */
         if (ints > 0) {
-            int32_t *first = net->ints + box[5] + place * ints;
-            memmove(first, first + ints, behind * (size_t)ints * sizeof *first);
+            pcl2_net_close_gap(net->ints + box[5], (size_t)ints * sizeof *net->ints, place, n);
         }
         if (reals > 0) {
-            pcl2_real *first = net->reals + box[6] + place * reals;
-            memmove(first, first + reals, behind * (size_t)reals * sizeof *first);
+            pcl2_net_close_gap(net->reals + box[6], (size_t)reals * sizeof *net->reals, place, n);
         }
     }
     net->taken[b] = box[0] == PCL2_NET_COUNT ? net->box[b] : net->taken[b] + 1;

@@ -2,7 +2,7 @@
 
 use super::facts::waits;
 use super::fast::{inner, member};
-use super::{NetBody, gates};
+use super::{NetBody, firing};
 use crate::expr::Scope;
 use crate::layout::WHOLE;
 use pcl2_lang::net::{Drive, Level};
@@ -198,7 +198,7 @@ fn part_writes(out: &mut String, net: &NetBody<'_, '_, '_>, part: usize) {
         }
         let _ = writeln!(out, "        {place} = {};", part_word(net, part, output));
         if net.layout.facts.tracked[word] {
-            gates::wrote(out, net, word, &part.to_string(), "before", "        ");
+            firing::wrote(out, net, word, &part.to_string(), "before", "        ");
         }
         out.push_str("        self->net.restless = 1;\n    }\n");
     }

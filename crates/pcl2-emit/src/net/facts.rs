@@ -29,6 +29,8 @@ pub(crate) struct NetFacts {
     last_taker: Vec<Option<usize>>,
     /// By box: the last gate that looks at its tokens without moving them.
     last_watcher: Vec<Option<usize>>,
+    /// By box: the last gate with a statement that looks at what its tokens carry.
+    last_looker: Vec<Option<usize>>,
     /// By box: the gates that it is the first box of, as words of a set.
     pub(crate) readied: Vec<Vec<(usize, u32)>>,
     /// By box: the end of the gate phase may have to look at it.
@@ -51,16 +53,9 @@ pub(crate) struct Literal {
 /// The operator that makes the opposite of a condition.
 const NEGATION: &str = "NOT";
 
-/// Whether a net can become code of its own: tokens without attributes, no operator.
+/// Whether a net can become code of its own: no operator.
 pub(crate) fn is_plain(net: &Net) -> bool {
     !net.operated()
-        && net.boxes.iter().all(|place| place.class.is_none())
-        && net.touched.iter().all(|touched| plain_looks(net, &touched.looks))
-}
-
-/// A process box may look at its cause and answer ready.
-fn plain_looks(net: &Net, looks: &[BoxId]) -> bool {
-    looks.iter().all(|place| matches!(net.place(*place).kind, Kind::Process(_)))
 }
 
 /// Whether a box does something in the box phase after its token came, and is excited after that.
@@ -86,6 +81,7 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
     };
     let none = || vec![None; net.boxes.len()];
     (facts.last_putter, facts.last_taker, facts.last_watcher) = (none(), none(), none());
+    facts.last_looker = none();
     (facts.readied, facts.driven) = (vec![Vec::new(); net.boxes.len()], vec![Vec::new(); net.boxes.len()]);
     net.gates.iter().enumerate().for_each(|(i, gate)| facts.gate(i, gate));
     for abort in net.parts.iter().filter_map(|part| part.abort.as_ref()) {
@@ -191,6 +187,9 @@ impl NetFacts {
             }
             let rules = gate.rules.iter().flat_map(|rule| rule.condition.iter().chain(&rule.actions));
             for statement in rules.chain(gate.permits.iter().map(|permit| &permit.condition)) {
+                for place in &net.touched[statement.0 as usize].looks {
+                    self.last_looker[place.0 as usize] = Some(i);
+                }
                 for source in &unit.blocks[statement.0 as usize].ports {
                     if let Source::Element(signal, element) = source
                         && signal.0 as usize == tokens
@@ -270,7 +269,9 @@ impl NetFacts {
         let plain = matches!(net.place(place).kind, Kind::State | Kind::Capacity);
         let (before, after) = (&net.gates[gate].before, &net.gates[gate].after);
         let stays = before.iter().any(|arc| arc.place == place) && after.iter().any(|arc| arc.place == place);
-        plain && !stays && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
+        // What a statement of the gate itself sees is in hand, or there as before.
+        let unseen = self.last_looker[place.0 as usize].is_none_or(|last| last <= gate);
+        plain && !stays && unseen && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
     }
 
     /// Whether any write is tracked.

@@ -7,7 +7,8 @@
 
 use super::facts::{generates, waits};
 use super::layout::part_unit;
-use super::{INDENT, NetBody, ends, gates, inputs, moves, statements, waits};
+use super::tokens::{self, Held};
+use super::{INDENT, NetBody, classes, ends, firing, gates, inputs, moves, statements, waits};
 use crate::bodies::Body;
 use crate::expr::Scope;
 use crate::layout::WHOLE;
@@ -121,6 +122,8 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
     gate_phase(&mut text, statics, net);
     ends::commit(&mut text, net);
     ends::levels(&mut text, net);
+    classes::fresh(out, net.body.cx.program, net.net, &net.layout.names, &text);
+    tokens::next_functions(out, net, &text);
     moves::functions(out, net, &text);
     out.push_str(&text);
 }
@@ -220,7 +223,9 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
             let _ = writeln!(out, "    happened |= {}_boxes(&self->{member}, 0);", layout.tag);
             continue;
         }
-        statements::comment(out, INDENT, statements::source(net, net.net.parts[part].statement));
+        let statement = net.net.parts[part].statement;
+        statements::comment(out, INDENT, statements::source(net, statement));
+        tokens::lend(out, net, statement, &tokens::lenders(net, statement, &[]), INDENT);
         let ports = inputs.iter().take(layout.ports.len());
         let arguments: Vec<&str> = ports.map(|input| input.from.as_str()).collect();
         let arguments = arguments.join(", ");
@@ -264,17 +269,18 @@ fn abort(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, par
     };
     let name = net.place(place);
     let _ = writeln!(out, "    /* ABORT of {} */\n    if (self->box[{name}] != 0) {{", net.net.parts[part].name);
-    let condition = statements::condition(out, statics, net, abort.condition, "        ");
+    let condition = tokens::condition(out, statics, net, abort.condition, &[], "        ");
     let mut tests = vec![condition];
     tests.extend(gates::box_room(net, abort.to, 1));
     let _ = writeln!(out, "        if ({}) {{", tests.join(" && "));
     let inner = "            ";
+    tokens::take(out, net, place, &[], inner);
     let _ = writeln!(out, "{inner}{}_empty(&self->{});", part_tag(net, part), member(net, part));
     let _ = writeln!(out, "{inner}self->net.taken[{name}] = 1;\n{inner}pcl2_net_add(self->net.touched, {name});");
     for statement in &abort.actions {
-        gates::run(out, statics, net, *statement, "0", inner);
+        firing::run(out, statics, net, *statement, ("0", &[(place, Held::OnItsWay)]), inner);
     }
-    gates::put(out, net, &pcl2_lang::net::Arc { place: abort.to, weight: 1 }, 1, "0", inner);
+    firing::put(out, net, &pcl2_lang::net::Arc { place: abort.to, weight: 1 }, place, (1, "0"), inner);
     let _ = writeln!(out, "{inner}self->net.restless = 1;\n        }}\n    }}");
 }
 

@@ -1,16 +1,15 @@
 //! Gates as code: each under its source line, tried only while its first box is ready.
 
-use super::statements;
-use super::{NetBody, facts, fast};
+use super::firing::{Way, fire};
+use super::{NetBody, choice, facts, fast, statements};
 use crate::statics::Statics;
 use pcl2_lang::net::{Arc, BoxId, Gate, Kind, Rule, StatementId, Tested};
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The gates of one function.
 pub(super) const GATES: usize = 32;
 /// Indent of what a gate does.
-const INDENT: &str = "            ";
+pub(super) const INDENT: &str = "            ";
 
 /// Writes the functions that try gates, one for each word of the set of ready ones.
 pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
@@ -37,6 +36,10 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
 
 fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate: &Gate, index: usize) {
     statements::comment(out, INDENT, net.body.cx.sources.text(gate.span));
+    if choice::looks(net, gate) {
+        choice::gate(out, statics, net, gate, index);
+        return;
+    }
     let enabled = enabled(net, gate);
     let sole = gate.rules.len() == 1;
     if !sole && !enabled.is_empty() {
@@ -67,7 +70,7 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
             tests.append(&mut allowed);
         }
         let fire = |out: &mut String, statics: &mut Statics, indent: &str| {
-            self::fire(out, statics, net, gate, rule, index, indent);
+            fire(out, statics, net, &Way { gate, rule, index, hands: &[] }, indent);
         };
         match (tests.is_empty(), allowed.is_empty()) {
             (true, true) => fire(out, statics, INDENT),
@@ -98,7 +101,7 @@ fn guarded(out: &mut String, tests: &[String], body: impl FnOnce(&mut String)) {
 }
 
 /// What must hold of tokens.
-fn enabled(net: &NetBody<'_, '_, '_>, gate: &Gate) -> Vec<String> {
+pub(super) fn enabled(net: &NetBody<'_, '_, '_>, gate: &Gate) -> Vec<String> {
     let mut tests = Vec::new();
     for (i, arc) in gate.before.iter().enumerate() {
         before(&mut tests, net, arc, i == 0);
@@ -140,7 +143,8 @@ fn before(tests: &mut Vec<String>, net: &NetBody<'_, '_, '_>, arc: &Arc, first: 
     }
 }
 
-fn weight(weight: u32) -> i32 {
+/// A weight as an int.
+pub(super) fn weight(weight: u32) -> i32 {
     i32::try_from(weight).unwrap_or(i32::MAX)
 }
 
@@ -180,12 +184,13 @@ fn test(net: &NetBody<'_, '_, '_>, root: &str, kept: &str, tested: &Tested, only
     if !only_excited || plain { enough } else { format!("{enough} && {excited}") }
 }
 
-fn weight_in(arcs: &[Arc], place: BoxId) -> i32 {
+/// How many tokens an arc moves from or to a box.
+pub(super) fn weight_in(arcs: &[Arc], place: BoxId) -> i32 {
     arcs.iter().find(|arc| arc.place == place).map_or(0, |arc| weight(arc.weight))
 }
 
 /// What must hold of room where a rule puts tokens.
-fn room(net: &NetBody<'_, '_, '_>, gate: &Gate, rule: &Rule) -> Vec<String> {
+pub(super) fn room(net: &NetBody<'_, '_, '_>, gate: &Gate, rule: &Rule) -> Vec<String> {
     let mut tests: Vec<String> = Vec::new();
     for index in rule.moves.iter().flat_map(|tokens| &tokens.to) {
         let arc = &gate.after[*index as usize];
@@ -219,189 +224,4 @@ pub(super) fn box_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<S
         tests.push(format!("{inner}_vacant(&self->{})", fast::member(net, part.0 as usize)));
     }
     tests
-}
-
-fn fire(
-    out: &mut String,
-    statics: &mut Statics,
-    net: &NetBody<'_, '_, '_>,
-    gate: &Gate,
-    rule: &Rule,
-    index: usize,
-    indent: &str,
-) {
-    for word in &rule.clears {
-        let _ = writeln!(out, "{indent}{} = 0;", net.word(word.0 as usize, net.scope()));
-    }
-    let mut toggled: BTreeMap<usize, u32> = BTreeMap::new();
-    for arc in &gate.before {
-        if net.layout.facts.takes_at_once(net.net, index, arc.place) {
-            take_at_once(out, net, arc, &mut toggled, indent);
-        } else {
-            take(out, net, arc, indent);
-        }
-    }
-    let number = index.to_string();
-    for statement in &rule.actions {
-        run(out, statics, net, *statement, &number, indent);
-    }
-    for to in rule.moves.iter().flat_map(|tokens| &tokens.to) {
-        let arc = &gate.after[*to as usize];
-        let room = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place)).max(0);
-        if net.layout.facts.puts_at_once(net.net, index, arc.place) {
-            let targets = rule.moves.iter().flat_map(|tokens| &tokens.to).filter(|other| *other == to);
-            let once = targets.count() == 1;
-            put_at_once(out, net, arc, once.then_some(&mut toggled), indent);
-        } else {
-            put(out, net, arc, room, &number, indent);
-        }
-    }
-    for (set, gates) in toggled.into_iter().filter(|(_, gates)| *gates != 0) {
-        let _ = writeln!(out, "{indent}self->net.ready[{set}] ^= UINT32_C(0x{gates:08x});");
-    }
-    let _ = writeln!(out, "{indent}fired = 1;");
-}
-
-/// Gates whose first box is this one become ready, or are no more: all of them are on one side.
-fn toggle(toggled: &mut BTreeMap<usize, u32>, net: &NetBody<'_, '_, '_>, place: BoxId) {
-    for (set, gates) in &net.layout.facts.readied[place.0 as usize] {
-        *toggled.entry(*set).or_default() ^= gates;
-    }
-}
-
-/// The box of a gate whose tokens no gate after it asks for.
-fn take_at_once(
-    out: &mut String,
-    net: &NetBody<'_, '_, '_>,
-    arc: &Arc,
-    toggled: &mut BTreeMap<usize, u32>,
-    indent: &str,
-) {
-    let name = net.place(arc.place);
-    if net.net.place(arc.place).capacity == Some(1) {
-        let _ = writeln!(out, "{indent}self->box[{name}] = 0;");
-        toggle(toggled, net, arc.place);
-        shows(out, net, arc.place, "-=", indent);
-    } else {
-        let _ = writeln!(out, "{indent}self->box[{name}] -= {};", weight(arc.weight));
-        let _ = writeln!(out, "{indent}if (self->box[{name}] == 0) {{");
-        let inner = format!("{indent}    ");
-        ready(out, net, arc.place, "&= ~", &inner);
-        shows(out, net, arc.place, "-=", &inner);
-        let _ = writeln!(out, "{indent}}}");
-    }
-}
-
-/// A box of one token, which no gate after it asks for. Without `toggled` the rule puts another token there, too.
-fn put_at_once(
-    out: &mut String,
-    net: &NetBody<'_, '_, '_>,
-    arc: &Arc,
-    toggled: Option<&mut BTreeMap<usize, u32>>,
-    indent: &str,
-) {
-    let sign = if toggled.is_some() { "=" } else { "+=" };
-    let _ = writeln!(out, "{indent}self->box[{}] {sign} {};", net.place(arc.place), weight(arc.weight));
-    match toggled {
-        Some(toggled) => toggle(toggled, net, arc.place),
-        None => ready(out, net, arc.place, "|= ", indent),
-    }
-    shows(out, net, arc.place, "+=", indent);
-}
-
-/// Gates whose first box is this one become ready, or are no more, from the next scan on.
-fn ready(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str, indent: &str) {
-    for (set, gates) in &net.layout.facts.readied[place.0 as usize] {
-        let _ = writeln!(out, "{indent}self->net.ready[{set}] {change}UINT32_C(0x{gates:08x});");
-    }
-}
-
-/// A box that drives outputs counts among their drivers, or no more; the outputs follow when the phase ends.
-fn shows(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str, indent: &str) {
-    let facts = &net.layout.facts;
-    let driven = &facts.driven[place.0 as usize];
-    if facts.counts_at_once(place.0 as usize) {
-        for output in driven {
-            let _ = writeln!(out, "{indent}self->net.drives[{output}] {change} 1;");
-            let _ = writeln!(out, "{indent}pcl2_net_add(self->net.outputs, {output});");
-        }
-    } else if !driven.is_empty() {
-        let _ = writeln!(out, "{indent}pcl2_net_add(self->net.touched, {});", net.place(place));
-    }
-}
-
-fn take(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, indent: &str) {
-    let (tag, name, place) = (net.tag(), net.place(arc.place), net.net.place(arc.place));
-    let tokens = match place.kind {
-        Kind::Count => format!("self->box[{name}]"),
-        Kind::State | Kind::Capacity | Kind::Generation(_) => weight(arc.weight).to_string(),
-        Kind::Time(_) | Kind::Action(_) | Kind::Process(_) | Kind::Macro(_) => "1".to_owned(),
-    };
-    let _ = writeln!(out, "{indent}{tag}_take(self, {name}, {tokens});");
-    if let Kind::Macro(part) = place.kind {
-        let part = part.0 as usize;
-        let _ = writeln!(out, "{indent}{}_leave(&self->{});", fast::part_tag(net, part), fast::member(net, part));
-    }
-}
-
-/// Writes how tokens are put into a box, `room` of them into room that was free.
-pub(super) fn put(out: &mut String, net: &NetBody<'_, '_, '_>, arc: &Arc, room: i32, gate: &str, indent: &str) {
-    let (tag, name) = (net.tag(), net.place(arc.place));
-    let _ = write!(out, "{indent}{tag}_put(self, {name}, {}", weight(arc.weight));
-    if net.layout.keeps("used") {
-        let _ = write!(out, ", {room}");
-    }
-    if net.layout.keeps("by") {
-        let _ = write!(out, ", {gate}");
-    }
-    out.push_str(");\n");
-    if let Kind::Macro(part) = net.net.place(arc.place).kind {
-        let part = part.0 as usize;
-        let _ = writeln!(out, "{indent}{}_enter(&self->{});", fast::part_tag(net, part), fast::member(net, part));
-    }
-}
-
-/// Writes a statement that is run for a gate: of two that write one output, that of the higher priority counts.
-pub(super) fn run(
-    out: &mut String,
-    statics: &mut Statics,
-    net: &NetBody<'_, '_, '_>,
-    statement: StatementId,
-    gate: &str,
-    indent: &str,
-) {
-    let facts = &net.layout.facts;
-    if !facts.tracks_statement(net.net, statement) {
-        statements::action(out, statics, net, statement, indent);
-        return;
-    }
-    let touched = &net.net.touched[statement.0 as usize];
-    let inner = format!("{indent}    ");
-    let _ = writeln!(out, "{indent}{{");
-    let tracked = |words: &[pcl2_lang::net::WordId]| -> Vec<usize> {
-        words.iter().map(|word| word.0 as usize).filter(|word| facts.tracked[*word]).collect()
-    };
-    let writes = tracked(&touched.writes);
-    for (i, word) in writes.iter().enumerate() {
-        let ty = pcl2_lang::kernel::c_scalar(net.net.words[*word].scalar);
-        let _ = writeln!(out, "{inner}const {ty} before{} = {};", i + 1, net.word(*word, net.scope()));
-    }
-    statements::action(out, statics, net, statement, &inner);
-    for (i, word) in writes.iter().enumerate() {
-        wrote(out, net, *word, gate, &format!("before{}", i + 1), &inner);
-    }
-    for word in tracked(&touched.counts) {
-        let _ = writeln!(out, "{inner}pcl2_net_counted(&self->net.wrote[{word}]);");
-    }
-    let _ = writeln!(out, "{indent}}}");
-}
-
-/// Writes what follows a write to a tracked output.
-pub(super) fn wrote(out: &mut String, net: &NetBody<'_, '_, '_>, word: usize, gate: &str, before: &str, indent: &str) {
-    let function = match net.net.words[word].scalar {
-        pcl2_lang::types::Scalar::Int => "pcl2_net_wrote_int",
-        pcl2_lang::types::Scalar::Real => "pcl2_net_wrote_real",
-    };
-    let place = net.word(word, net.scope());
-    let _ = writeln!(out, "{indent}{function}({}_writes(self, {word}), {gate}, &{place}, {before});", net.tag());
 }

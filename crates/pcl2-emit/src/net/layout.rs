@@ -1,5 +1,6 @@
 //! What an instance of a net keeps beside its signals, and how its boxes are called in C.
 
+use super::classes::{self, ClassNames};
 use super::facts::{self, NetFacts};
 use super::gates::GATES;
 use crate::NetForm;
@@ -10,6 +11,7 @@ use pcl2_lang::net::table::{self, Table};
 use pcl2_lang::net::{BoxId, Kind, Net, PartId};
 use pcl2_lang::program::{Program, Role, Unit, UnitId};
 use pcl2_lang::types::Width;
+use std::borrow::Cow;
 
 /// How long a net with modes was stopped.
 pub(crate) const STOOD: &str = "stood";
@@ -24,6 +26,8 @@ pub(crate) struct NetLayout {
     pub(crate) held: usize,
     /// By box: the enumerator that stands for it.
     pub(crate) boxes: Vec<String>,
+    /// The names of what tokens with attributes need in the fast form.
+    pub(crate) names: ClassNames,
     /// The members of the struct `net` inside the instance.
     pub(crate) fields: Vec<Field>,
     /// What the player walks, and tokens with attributes at the start.
@@ -113,7 +117,7 @@ pub(crate) fn layout(
     net: &Net,
     known: &[UnitLayout<'_>],
     scratch: Scratch,
-    boxes: Vec<String>,
+    (boxes, names): (Vec<String>, ClassNames),
 ) -> NetLayout {
     let inside = |part: PartId| {
         let inner = part_unit(unit, net, part)?;
@@ -128,6 +132,7 @@ pub(crate) fn layout(
     NetLayout {
         held,
         boxes,
+        names,
         nets: 1 + parts.iter().map(|part| part.nets).sum::<usize>(),
         timed: net.has_time() || parts.iter().any(|part| part.timed),
         table,
@@ -153,6 +158,22 @@ pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetF
             NetForm::Table => table_fields(net, layout),
             NetForm::Fast => fast_fields(net, layout),
         };
+        if layout.form == NetForm::Fast {
+            let first = layout.held + net.words.len() + 1;
+            let hands = classes::hands(net, &layout.names);
+            name_hands(&mut units[index], first, &hands);
+        }
+    }
+}
+
+/// Attributes of tokens in hand are members of a struct.
+fn name_hands(unit: &mut UnitLayout<'_>, first: usize, hands: &[Option<String>]) {
+    for slot in &mut unit.slots {
+        let hand = (slot.signal.0 as usize).checked_sub(first).and_then(|hand| hands.get(hand));
+        if let Some(Some(name)) = hand {
+            slot.name = Cow::Owned(name.clone());
+            slot.inside = true;
+        }
     }
 }
 
@@ -266,7 +287,11 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     let (boxes, facts) = (net.boxes.len(), &layout.facts);
     let any = |test: &dyn Fn(&Kind) -> bool| net.boxes.iter().any(|place| test(&place.kind));
     let acts = any(&|kind| matches!(kind, Kind::Action(_) | Kind::Process(_)));
-    let times = any(&|kind| matches!(kind, Kind::Time(_) | Kind::Process(_)));
+    let times = any(&|kind| match kind {
+        Kind::Time(_) => true,
+        Kind::Process(process) => process.within.is_some(),
+        Kind::State | Kind::Capacity | Kind::Count | Kind::Action(_) | Kind::Generation(_) | Kind::Macro(_) => false,
+    });
     let generates = net.boxes.iter().any(facts::generates);
     let waits = net.boxes.iter().any(facts::waits) || generates;
     let sets = |count: usize| Some(count.div_ceil(32));
@@ -301,6 +326,9 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
 }
 
 /// Adds what the struct `net` takes.
-pub(crate) fn extent(extent: &mut Extent, layout: &NetLayout, width: Width) {
+pub(crate) fn extent(extent: &mut Extent, net: &Net, layout: &NetLayout, width: Width) {
     fields_extent(extent, &layout.fields, width);
+    if layout.form == NetForm::Fast {
+        classes::extent(extent, net, width);
+    }
 }

@@ -1,14 +1,18 @@
 //! Nets as C: what an instance keeps, its statements, and the scan.
 
+mod choice;
+pub(crate) mod classes;
 mod ends;
 pub(crate) mod facts;
 mod fast;
+mod firing;
 mod gates;
 mod inputs;
 pub(crate) mod layout;
 mod moves;
 mod statements;
 mod table;
+mod tokens;
 mod waits;
 
 use crate::NetForm;
@@ -66,6 +70,12 @@ impl<'b, 'c, 'a> NetBody<'b, 'c, 'a> {
         &self.layout.boxes[id.0 as usize]
     }
 
+    /// A box of the net.
+    fn id(&self, place: &NetBox) -> BoxId {
+        let index = self.net.boxes.iter().position(|known| known.name == place.name);
+        BoxId(index.unwrap_or(0) as u32)
+    }
+
     /// The members with the cause and the answer of a process box.
     fn answers(&self, place: &NetBox) -> [String; 2] {
         let before = self.net.boxes.iter().take_while(|other| other.name != place.name);
@@ -113,6 +123,8 @@ pub(crate) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
     if net.layout.form == NetForm::Fast {
         fast::start(out, net);
+        classes::start(out, net.body.cx.program, net.net, &net.layout.names);
+        return;
     }
     let table = &net.layout.table;
     let ints = table.ints.iter().map(|value| (Value::Int(*value), Scalar::Int)).enumerate();

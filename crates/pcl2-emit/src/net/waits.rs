@@ -1,7 +1,8 @@
 //! The box phase as code: boxes that do something after their token came, and those that make tokens.
 
 use super::facts::{generates, waits};
-use super::gates::run;
+use super::firing::run;
+use super::tokens::{self, Held};
 use super::{NetBody, statements};
 use crate::statics::Statics;
 use pcl2_lang::net::{Generation, Kind, NetBox, Process, StatementId};
@@ -46,7 +47,7 @@ fn place(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, pla
         Kind::Time(time) => self::time(out, statics, net, *time, name),
         Kind::Action(actions) => {
             for statement in actions {
-                run(out, statics, net, *statement, &gate_of(net, name), INNER);
+                run(out, statics, net, *statement, (&gate_of(net, name), &[]), INNER);
             }
             excite(out, net, name, "PCL2_NET_DONE", INNER);
         }
@@ -74,6 +75,13 @@ fn set_phase(out: &mut String, name: &str, phase: &str, indent: &str) {
     let _ = writeln!(out, "{indent}self->net.phase[{name}] = (self->net.phase[{name}] & ~3) | {phase};");
 }
 
+/// A time begins.
+fn since(out: &mut String, net: &NetBody<'_, '_, '_>, name: &str, indent: &str) {
+    if net.layout.keeps("since") {
+        let _ = writeln!(out, "{indent}self->net.since[{name}] = self->net.now;");
+    }
+}
+
 /// Whether a statement is a number.
 fn is_constant(net: &NetBody<'_, '_, '_>, statement: StatementId) -> bool {
     let block = net.body.unit.block(BlockId(statement.0));
@@ -86,7 +94,7 @@ fn over(name: &str, time: &str) -> String {
 }
 
 fn time(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, time: StatementId, name: &str) {
-    let value = statements::time(out, statics, net, time, INNER);
+    let value = tokens::time(out, statics, net, time, INNER);
     let passed = over(name, &value);
     if is_constant(net, time) {
         let _ = writeln!(out, "{INNER}if ({passed}) {{");
@@ -115,18 +123,18 @@ fn process(
     let inner = "                    ";
     let _ = writeln!(out, "{INNER}if ((self->net.phase[{name}] & 3) == PCL2_NET_NEW) {{");
     for statement in &process.enter {
-        run(out, statics, net, *statement, &gate, inner);
+        run(out, statics, net, *statement, (&gate, &[]), inner);
     }
-    let _ = writeln!(out, "{inner}self->net.since[{name}] = self->net.now;");
+    since(out, net, name, inner);
     set_phase(out, name, "PCL2_NET_RUNNING", inner);
     let _ = writeln!(out, "{inner}happened = 1;\n{inner}break;\n{INNER}}}");
     let complete = match process.until {
-        Some(until) => statements::condition(out, statics, net, until, INNER),
+        Some(until) => tokens::condition(out, statics, net, until, &[], INNER),
         None => "1".to_owned(),
     };
     let late = match process.within {
         Some(within) => {
-            let value = statements::time(out, statics, net, within, INNER);
+            let value = tokens::time(out, statics, net, within, INNER);
             over(name, &value)
         }
         None => "0".to_owned(),
@@ -159,9 +167,10 @@ fn finish(
     let [cause, ready] = net.answers(place);
     let _ = writeln!(out, "{inner}{cause} = !complete;\n{inner}{ready} = 1;");
     for statement in &process.after {
-        run(out, statics, net, *statement, gate, inner);
+        run(out, statics, net, *statement, (gate, &[]), inner);
     }
-    let _ = writeln!(out, "{inner}self->net.since[{name}] = self->net.now;\n{inner}happened = 1;");
+    since(out, net, name, inner);
+    let _ = writeln!(out, "{inner}happened = 1;");
     let _ = writeln!(out, "{inner}if ({ready} != 0) {{");
     excite(out, net, name, "PCL2_NET_READY", &format!("{inner}    "));
     let _ = writeln!(out, "{inner}}}");
@@ -176,7 +185,7 @@ fn generation(
     name: &str,
 ) {
     let inner = "                    ";
-    let condition = statements::condition(out, statics, net, generation.when, INNER);
+    let condition = tokens::condition(out, statics, net, generation.when, &[], INNER);
     let capacity = place.capacity.unwrap_or(1);
     let _ = write!(
         out,
@@ -189,14 +198,22 @@ fn generation(
 {INNER}}}
 {INNER}pending |= edge;
 {INNER}if (pending && self->box[{name}] < {capacity}) {{
-{inner}self->box[{name}] += 1;
+"
+    );
+    let id = net.id(place);
+    tokens::make(out, net, id, inner);
+    tokens::lay(out, net, id, id, inner);
+    let _ = write!(
+        out,
+        "{inner}self->box[{name}] += 1;
 {inner}pcl2_net_add(self->net.touched, {name});
 {inner}{tag}_excite(self, {name});
 ",
         tag = net.tag()
     );
+    let hands = [(id, Held::At(format!("self->box[{name}] - 1")))];
     for statement in &generation.enter {
-        run(out, statics, net, *statement, "0", inner);
+        run(out, statics, net, *statement, ("0", &hands), inner);
     }
     let _ = writeln!(out, "{inner}pending = 0;\n{inner}happened = 1;\n{INNER}}}");
     let _ = writeln!(out, "{INNER}self->net.phase[{name}] = now | (pending << 1);");
