@@ -78,6 +78,21 @@ END
     assert_eq!(column(&trace, "steps.next"), [0.; 12], "commands are cleared");
 }
 
+/// A command that comes in the first scan after a stop is obeyed as any other.
+#[test]
+fn a_command_right_after_a_stop_is_obeyed() {
+    let net = "int w = back ( real v, cell int mode = 0, cell int next = 0, cell int fire = 0 : )
+MODE mode, next, fire
+STATE s MARKED
+GATE g1 : s -> s IF v > 0.
+DO w = w + 1
+END
+";
+    let stimulus = "k,v,back.mode,back.fire\n0,2.,automatic,0\n1,2.,stopped,0\n2,2.,manual,g1\n3,2.,manual,g1\n";
+    let trace = traced(&[("back.net", net)], stimulus, &["--steps", "5"]);
+    assert_eq!(column(&trace, "w"), [1., 0., 2., 3., 3.]);
+}
+
 const HANDS: &str =
     "int y, int last, int why = hands ( int mode, cell int next = 0, cell int fire = 0, cell int put = 0
                                   , cell int take = 0, int ok : )

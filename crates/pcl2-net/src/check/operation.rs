@@ -139,7 +139,9 @@ fn stops(builder: &mut Builder<'_>, halts: &[Halt]) {
     let filled = |word: usize| {
         let net = &builder.net;
         let told = net.actives.iter().flat_map(|active| [Some(active.step), active.time]).chain([net.blocked]);
-        told.flatten().any(|filled| filled.0 as usize == word)
+        // A command goes back, cleared, by a word too.
+        let commands = net.momentary.iter().map(|(_, command)| *command);
+        told.flatten().chain(commands).any(|filled| filled.0 as usize == word)
     };
     let off = |word: usize| (!filled(word)).then(|| Some(zero(builder.net.words[word].scalar)));
     let mut values: Vec<Option<Option<Value>>> = (0..heads).map(off).collect();
@@ -191,7 +193,7 @@ fn stopped_output(
     let (expected, help) = match (values.get(word), seen.get(word)) {
         (None, _) => ("an output", "a local is seen in the net alone"),
         (_, Some(true)) => ("each output once", "delete one of them"),
-        (Some(None), _) => ("an output that boxes drive or statements write", "ACTIVE and BLOCKED fill the others"),
+        (Some(None), _) => ("an output that boxes drive or statements write", "ACTIVE, BLOCKED and commands fill the others"),
         (Some(Some(_)), _) => return Some(word),
     };
     let message = format!("expected {expected}, found `{text}`");
