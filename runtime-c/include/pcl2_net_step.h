@@ -17,6 +17,14 @@
 #define PCL2_NET_RUNNING 1
 #define PCL2_NET_READY 2
 
+/* Modes of a net: the values of its input. */
+enum {
+    PCL2_NET_AUTOMATIC,
+    PCL2_NET_STEP,
+    PCL2_NET_MANUAL,
+    PCL2_NET_STOPPED
+};
+
 /* A time in whole seconds as nanoseconds; 0 for a negative one. */
 static inline int64_t pcl2_net_seconds(int32_t seconds)
 {
@@ -84,6 +92,14 @@ static inline void pcl2_net_fault(int32_t *status, int32_t fault)
     if (*status == 0) {
         *status = fault;
     }
+}
+
+/* What a command says; it is cleared, since it is obeyed or refused. */
+static inline int32_t pcl2_net_command(int32_t *command)
+{
+    const int32_t says = *command;
+    *command = 0;
+    return says;
 }
 
 /* Whether two reals differ in a bit. */

@@ -32,14 +32,6 @@ enum {
     PCL2_NET_MACRO
 };
 
-/* Modes of a net: the values of its input. */
-enum {
-    PCL2_NET_AUTOMATIC,
-    PCL2_NET_STEP,
-    PCL2_NET_MANUAL,
-    PCL2_NET_STOPPED
-};
-
 /* The token in hand of a box: k + 1 that of place k, which a gate chose or a box made; PCL2_NET_LENT - k that of place k,
  * lent to a statement. */
 #define PCL2_NET_NOT_HELD 0

@@ -30,16 +30,9 @@ static const pcl2_net_word *net_gates_in_file(const pcl2_net_word *operated)
     return operated + NET_OPERATED_STOPS + 1 + 3 * operated[NET_OPERATED_STOPS];
 }
 
-/* What a command says; it is cleared, since it is obeyed or refused. */
 static int32_t net_command(struct pcl2_net *net, const pcl2_net_word *modes, int32_t which)
 {
-    if (modes[which] == 0) {
-        return 0;
-    }
-    int32_t *word = net_word_at(net, modes[which] - 1);
-    const int32_t command = *word;
-    *word = 0;
-    return command;
+    return modes[which] == 0 ? 0 : pcl2_net_command(net_word_at(net, modes[which] - 1));
 }
 
 static void net_record_command(struct pcl2_net *net, int32_t obeyed)

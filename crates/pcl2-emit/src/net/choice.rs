@@ -3,7 +3,7 @@
 use super::firing::{self, Way};
 use super::gates::{self, INDENT};
 use super::tokens::{self, Held};
-use super::{NetBody, classes, statements};
+use super::{NetBody, classes, commands, statements};
 use crate::statics::Statics;
 use pcl2_lang::net::{BoxId, Gate, Rule, StatementId};
 use std::fmt::Write;
@@ -13,12 +13,13 @@ const INNER: &str = "                ";
 /// Indent of what follows where a rule holds.
 const HELD: &str = "                    ";
 
-/// Whether a gate has to look at what tokens carry before it fires.
+/// Whether a gate has to look at what tokens carry, or to tell which permissive holds it back, before it fires.
 pub(super) fn looks(net: &NetBody<'_, '_, '_>, gate: &Gate) -> bool {
     let mut conditions = gate.rules.iter().filter_map(|rule| rule.condition);
     let mut permits = gate.permits.iter().map(|permit| permit.condition);
     let sees = |condition: StatementId| !net.looks(condition).is_empty();
-    conditions.any(sees) || permits.any(sees)
+    let told = net.net.blocked.is_some() && !gate.permits.is_empty();
+    told || conditions.any(sees) || permits.any(sees)
 }
 
 /// Writes a gate.
@@ -38,8 +39,11 @@ pub(super) fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_
         self::rule(out, statics, net, &Way { gate, rule, index, hands: &hands }, &chosen);
         let _ = writeln!(out, "{INDENT}}}");
         if rule.condition.is_none() {
-            break;
+            return;
         }
+    }
+    if let Some(rule) = gate.rules.first().filter(|_| commands::fires(net)) {
+        commands::first_rule(out, statics, net, &Way { gate, rule, index, hands: &[] }, INDENT);
     }
 }
 
@@ -73,7 +77,7 @@ fn rule(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, way:
         let _ = writeln!(out, "{INNER}if (holds) {{");
     }
     fits(out, statics, net, way, HELD);
-    if way.gate.rules.len() > 1 {
+    if way.gate.rules.len() > 1 || commands::fires(net) {
         let _ = writeln!(out, "{HELD}break;");
     }
     let _ = writeln!(out, "{INNER}}}");
@@ -126,9 +130,19 @@ fn fits(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, way:
         inner.push_str("    ");
         open += 1;
     }
-    for permit in &way.gate.permits {
+    for (term, permit) in way.gate.permits.iter().enumerate() {
         let text = tokens::condition(out, statics, net, permit.condition, way.hands, &inner);
-        let _ = writeln!(out, "{inner}if ({text}) {{");
+        let text = commands::or_forced(net, text);
+        if net.layout.keeps("blocked") {
+            let number = net.net.first_terms()[way.index] as usize + term;
+            let _ = writeln!(
+                out,
+                "{inner}if (!({text})) {{\n{inner}    {}_hold(self, {number});\n{inner}}} else {{",
+                net.tag()
+            );
+        } else {
+            let _ = writeln!(out, "{inner}if ({text}) {{");
+        }
         inner.push_str("    ");
         open += 1;
     }

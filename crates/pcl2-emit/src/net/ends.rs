@@ -2,7 +2,7 @@
 
 use super::facts::waits;
 use super::fast::{inner, member};
-use super::{NetBody, firing};
+use super::{NetBody, firing, modes};
 use crate::expr::Scope;
 use crate::layout::WHOLE;
 use pcl2_lang::net::{Drive, Level};
@@ -164,8 +164,12 @@ pub(super) fn levels(out: &mut String, net: &NetBody<'_, '_, '_>) {
         joined(out, net, level, *word);
     }
     if !net.net.actives.is_empty() && !active_apart(net) {
-        let _ = writeln!(out, "    {tag}_active(self);");
+        let _ = match modes::unless(net, "PCL2_NET_STOPPED") {
+            Some(unless) => writeln!(out, "    if ({unless}) {{\n        {tag}_active(self);\n    }}"),
+            None => writeln!(out, "    {tag}_active(self);"),
+        };
     }
+    modes::end(out, net);
     out.push_str("}\n\n");
     if !net.net.actives.is_empty() {
         let at = out.rfind("/* The end of a scan:").unwrap_or(out.len());
@@ -186,13 +190,24 @@ fn part_word(net: &NetBody<'_, '_, '_>, part: usize, output: usize) -> String {
     inside.word(output, scope)
 }
 
+/// Whether an output of a net inside has a value of its own while that net is stopped.
+fn stops(net: &NetBody<'_, '_, '_>, part: usize, output: usize) -> bool {
+    let inner = inner(net, part);
+    let operation = inner.as_ref().and_then(NetBody::of).and_then(|inside| inside.net.operation.as_ref());
+    operation.is_some_and(|operation| operation.stops.iter().any(|(word, _)| word.0 as usize == output))
+}
+
 /// Words that a net inside writes take its value when it wrote it.
 fn part_writes(out: &mut String, net: &NetBody<'_, '_, '_>, part: usize) {
     for (output, word) in &net.net.parts[part].writes {
         let (output, word) = (*output as usize, word.0 as usize);
         let (inner, place) = (member(net, part), net.word(word, net.scope()));
         let ty = pcl2_lang::kernel::c_scalar(net.net.words[word].scalar);
-        let _ = writeln!(out, "    if (self->{inner}.net.go && self->{inner}.net.wrote[{output}] != 0) {{");
+        let mut when = format!("self->{inner}.net.go && self->{inner}.net.wrote[{output}] != 0");
+        if stops(net, part, output) {
+            when = format!("({when}) || self->{inner}.net.switched");
+        }
+        let _ = writeln!(out, "    if ({when}) {{");
         if net.layout.facts.tracked[word] {
             let _ = writeln!(out, "        const {ty} before = {place};");
         }

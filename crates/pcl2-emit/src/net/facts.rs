@@ -53,11 +53,6 @@ pub(crate) struct Literal {
 /// The operator that makes the opposite of a condition.
 const NEGATION: &str = "NOT";
 
-/// Whether a net can become code of its own: no operator.
-pub(crate) fn is_plain(net: &Net) -> bool {
-    !net.operated()
-}
-
 /// Whether a box does something in the box phase after its token came, and is excited after that.
 pub(crate) fn waits(place: &NetBox) -> bool {
     match place.kind {
@@ -88,7 +83,9 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
         facts.putters[abort.to.0 as usize] += 1;
     }
     track(&mut facts, net, part);
-    facts.literals = net.gates.iter().map(|gate| gate_literal(program, unit, gate)).collect();
+    // BLOCKED tells of a permissive that does not hold: it must be tried.
+    let told = net.blocked.is_some();
+    facts.literals = net.gates.iter().map(|gate| gate_literal(program, unit, gate, told)).collect();
     let waiting =
         facts.literals.iter().enumerate().filter_map(|(gate, literal)| Some((literal.as_ref()?.input.0, gate)));
     facts.waiting = waiting.collect();
@@ -108,12 +105,13 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
 }
 
 /// An input that must be so whatever else holds: the condition of the only rule, or a permissive.
-fn gate_literal(program: &Program, unit: &Unit, gate: &Gate) -> Option<Literal> {
+fn gate_literal(program: &Program, unit: &Unit, gate: &Gate, told: bool) -> Option<Literal> {
     let sole = match gate.rules.as_slice() {
         [rule] => rule.condition,
         _ => None,
     };
-    let mut conditions = sole.into_iter().chain(gate.permits.iter().map(|permit| permit.condition));
+    let permits = gate.permits.iter().filter(|_| !told).map(|permit| permit.condition);
+    let mut conditions = sole.into_iter().chain(permits);
     conditions.find_map(|condition| literal(program, unit, condition))
 }
 
@@ -213,7 +211,8 @@ impl NetFacts {
         }
     }
 
-    /// Boxes whose tokens do not all come and go at once. The net around a macro may empty all its boxes.
+    /// Boxes whose tokens do not all come and go at once. The net around a macro may empty all its boxes, and an operator
+    /// may put a token into any box.
     fn find_late(&self, net: &Net) -> Vec<bool> {
         let plain = |place: &NetBox| matches!(place.kind, Kind::State | Kind::Capacity);
         let mut late: Vec<bool> = net.boxes.iter().map(|place| !plain(place)).collect();
@@ -228,7 +227,7 @@ impl NetFacts {
         for abort in net.parts.iter().filter_map(|part| part.abort.as_ref()) {
             late[abort.to.0 as usize] = true;
         }
-        if net.exit.is_some() { vec![true; late.len()] } else { late }
+        if net.exit.is_some() || net.operation.is_some() { vec![true; late.len()] } else { late }
     }
 
     /// The gates that wait for an input.
@@ -271,7 +270,8 @@ impl NetFacts {
         let stays = before.iter().any(|arc| arc.place == place) && after.iter().any(|arc| arc.place == place);
         // What a statement of the gate itself sees is in hand, or there as before.
         let unseen = self.last_looker[place.0 as usize].is_none_or(|last| last <= gate);
-        plain && !stays && unseen && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
+        let obeys = net.operation.is_some();
+        plain && !obeys && !stays && unseen && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
     }
 
     /// Whether any write is tracked.

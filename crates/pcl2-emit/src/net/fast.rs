@@ -8,7 +8,7 @@
 use super::facts::{generates, waits};
 use super::layout::part_unit;
 use super::tokens::{self, Held};
-use super::{INDENT, NetBody, classes, ends, firing, gates, inputs, moves, statements, waits};
+use super::{INDENT, NetBody, classes, commands, ends, firing, gates, inputs, modes, moves, statements, waits};
 use crate::bodies::Body;
 use crate::expr::Scope;
 use crate::layout::WHOLE;
@@ -117,8 +117,10 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
     let mut text = String::new();
     moves::macro_functions(&mut text, net);
     waits::function(&mut text, statics, net);
+    modes::functions(&mut text, net);
     boxes(&mut text, statics, net);
     gates::functions(&mut text, statics, net);
+    commands::functions(&mut text, net);
     gate_phase(&mut text, statics, net);
     ends::commit(&mut text, net);
     ends::levels(&mut text, net);
@@ -194,10 +196,12 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     let mut awake = vec!["changed", "self->net.restless"];
     awake.extend(keeps("waits").then_some("self->net.waits"));
     awake.extend(keeps("inside").then_some("self->net.inside"));
+    let mut begin = String::new();
+    modes::begin(&mut begin, net);
     let _ = write!(
         out,
         "    self->status = 0;
-    if (({}) == 0) {{
+{begin}    if (({}) == 0) {{
         self->net.go = 0;
         return 0;
     }}
@@ -211,13 +215,13 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
         out.push_str("    memset(self->net.wrote, 0, sizeof self->net.wrote);\n");
     }
     if keeps("waits") {
-        let _ = writeln!(out, "    if (self->net.waits) {{\n        happened |= {tag}_wait(self);\n    }}");
+        let mut tests: Vec<String> = modes::unless(net, "PCL2_NET_STOPPED").into_iter().collect();
+        tests.push("self->net.waits".to_owned());
+        let _ = writeln!(out, "    if ({}) {{\n        happened |= {tag}_wait(self);\n    }}", tests.join(" && "));
     }
     for (part, _, layout) in net.parts() {
         let member = member(net, part);
-        if layout.net.as_ref().is_some_and(|net| net.timed) {
-            let _ = writeln!(out, "    self->{member}.net.now = self->net.now;");
-        }
+        modes::hand_down(out, net, part);
         let inputs = statements::part_inputs(statics, net, part);
         if inputs.is_empty() {
             let _ = writeln!(out, "    happened |= {}_boxes(&self->{member}, 0);", layout.tag);
@@ -237,8 +241,39 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
 
 fn gate_phase(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
+    let moded = net.layout.keeps("mode");
+    if moded {
+        let _ = writeln!(out, "/* Tries the gates. */\nstatic void {tag}_try(struct {tag} *self)\n{{");
+        let start = out.len();
+        tries(out, statics, net);
+        out.push_str(if out.len() == start { "    (void)self;\n" } else { "" });
+        out.push_str("}\n\n");
+    }
     let _ = writeln!(out, "/* The gate phase. */\nstatic void {tag}_gates(struct {tag} *self)\n{{");
     out.push_str("    if (!self->net.go) {\n        return;\n    }\n");
+    if moded {
+        let _ = writeln!(out, "    if (self->net.mode == PCL2_NET_AUTOMATIC) {{\n        {tag}_try(self);\n    }}");
+    } else {
+        tries(out, statics, net);
+    }
+    if commands::obeys(net) {
+        let _ = writeln!(out, "    if (self->net.mode == PCL2_NET_MANUAL) {{\n        {tag}_obey(self);\n    }}");
+    }
+    for (part, _, layout) in net.parts() {
+        let member = member(net, part);
+        if let Some(place) = net.net.parts[part].place
+            && layout.net.as_ref().is_some_and(|inner| inner.keeps("within"))
+        {
+            let _ = writeln!(out, "    self->{member}.net.within = {} > 0 ? 2 : 1;", net.left(place));
+        }
+        let _ = writeln!(out, "    {}_gates(&self->{member});", layout.tag);
+    }
+    out.push_str("}\n\n");
+}
+
+/// Writes how ABORT lines and gates are tried.
+fn tries(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
+    let tag = net.tag();
     for (part, _, _) in net.parts() {
         abort(out, statics, net, part);
     }
@@ -254,13 +289,10 @@ fn gate_phase(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>
 "
         );
     }
+    let forced = if commands::fires(net) { ", 0" } else { "" };
     for word in 0..sets {
-        let _ = writeln!(out, "    self->net.restless |= {tag}_gates_{}(self, ready[{word}]);", word + 1);
+        let _ = writeln!(out, "    self->net.restless |= {tag}_gates_{}(self, ready[{word}]{forced});", word + 1);
     }
-    for (part, _, layout) in net.parts() {
-        let _ = writeln!(out, "    {}_gates(&self->{});", layout.tag, member(net, part));
-    }
-    out.push_str("}\n\n");
 }
 
 fn abort(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize) {
@@ -303,8 +335,13 @@ static void {tag}_scan(struct {tag} *self, int32_t changed)
     if ends::active_apart(net) {
         let _ = writeln!(out, "    {tag}_active(self);");
     }
-    if net.layout.timed {
-        out.push_str("    self->net.now += self->net.period;\n");
+    match (net.layout.keeps("clock"), net.net.operation.is_some()) {
+        (true, true) => out.push_str("    self->net.clock += self->net.period;\n"),
+        (true, false) => {
+            out.push_str("    self->net.clock += self->net.period;\n    self->net.now = self->net.clock;\n");
+        }
+        (false, _) if net.layout.timed => out.push_str("    self->net.now += self->net.period;\n"),
+        (false, _) => {}
     }
     out.push_str("}\n\n");
 }

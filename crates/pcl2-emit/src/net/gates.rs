@@ -1,7 +1,7 @@
 //! Gates as code: each under its source line, tried only while its first box is ready.
 
 use super::firing::{Way, fire};
-use super::{NetBody, choice, facts, fast, statements};
+use super::{NetBody, choice, commands, facts, fast, statements};
 use crate::statics::Statics;
 use pcl2_lang::net::{Arc, BoxId, Gate, Kind, Rule, StatementId, Tested};
 use std::fmt::Write;
@@ -21,7 +21,9 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
             word * GATES + 1,
             word * GATES + gates.len()
         );
-        let _ = writeln!(out, "static int32_t {tag}_gates_{}(struct {tag} *self, uint32_t ready)\n{{", word + 1);
+        let forced = if commands::fires(net) { ", int32_t forced" } else { "" };
+        let _ =
+            writeln!(out, "static int32_t {tag}_gates_{}(struct {tag} *self, uint32_t ready{forced})\n{{", word + 1);
         out.push_str("    int32_t fired = 0;\n");
         out.push_str("    while (ready != 0) {\n        const int32_t gate = pcl2_net_lowest(ready);\n");
         out.push_str("        ready &= ready - 1;\n        switch (gate) {\n");
@@ -58,12 +60,15 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
             same.is_none() || same != known
         };
         let condition = rule.condition.filter(|condition| !sole || asked(condition));
-        tests.extend(condition.map(|condition| statements::condition(out, statics, net, condition, INDENT)));
+        let condition = condition.map(|condition| statements::condition(out, statics, net, condition, INDENT));
+        tests.extend(condition.map(|text| if sole { commands::or_forced(net, text) } else { text }));
         let mut allowed = room(net, gate, rule);
         // What permissives compute on their way is there once for all rules.
         let permits = permits.get_or_insert_with(|| {
             let asked = gate.permits.iter().filter(|permit| asked(&permit.condition));
-            asked.map(|permit| statements::condition(out, statics, net, permit.condition, INDENT)).collect::<Vec<_>>()
+            let text = |condition| statements::condition(out, statics, net, condition, INDENT);
+            let texts = asked.map(|permit| permit.condition).map(text);
+            texts.map(|text| commands::or_forced(net, text)).collect::<Vec<_>>()
         });
         allowed.extend(permits.iter().cloned());
         if sole {
@@ -89,8 +94,11 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
             }),
         }
         if !sole && rule.condition.is_none() {
-            break;
+            return;
         }
+    }
+    if let Some(rule) = gate.rules.first().filter(|_| !sole && commands::fires(net)) {
+        commands::first_rule(out, statics, net, &Way { gate, rule, index, hands: &[] }, INDENT);
     }
 }
 
@@ -210,7 +218,8 @@ pub(super) fn box_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<S
         return Vec::new();
     };
     let used = if net.layout.keeps("used") { "used" } else { "filled" };
-    let alone = net.layout.facts.putters[id.0 as usize] <= 1 && net.net.entry != Some(id);
+    let told = net.net.entry == Some(id) || net.net.operation.is_some();
+    let alone = net.layout.facts.putters[id.0 as usize] <= 1 && !told;
     let there =
         if alone { format!("self->box[{name}]") } else { format!("self->box[{name}] + self->net.{used}[{name}]") };
     let most = i64::from(weight(capacity)) - i64::from(more);

@@ -3,6 +3,7 @@
 use super::classes::{self, ClassNames};
 use super::facts::{self, NetFacts};
 use super::gates::GATES;
+use super::modes::{self, Command, command};
 use crate::NetForm;
 use crate::facts::Scratch;
 use crate::layout::UnitLayout;
@@ -36,6 +37,10 @@ pub(crate) struct NetLayout {
     pub(crate) nets: usize,
     /// It, or a net inside, depends on time.
     pub(crate) timed: bool,
+    /// Time may stand in it, or in a net inside.
+    pub(crate) clocked: bool,
+    /// It has modes, or stands inside a net that has.
+    pub(crate) moded: bool,
     /// Scratch of its statements.
     pub(crate) scratch: Scratch,
     /// A composite stands around it somewhere.
@@ -72,9 +77,11 @@ impl MacroMoves {
             self.asked |= put && !taken;
         }
         let mut aborts = outer.parts.iter().filter_map(|part| part.abort.as_ref());
-        let target = aborts.any(|abort| abort.to == place);
+        let put = command(outer, Command::Put).is_some();
+        let target = put || aborts.any(|abort| abort.to == place);
         self.entered |= target;
         self.asked |= target;
+        self.emptied |= command(outer, Command::Take).is_some();
     }
 }
 
@@ -87,9 +94,42 @@ impl NetLayout {
 
 /// What stands behind the tag of a net in the names of its functions and tables, apart from functions of gates.
 const SUFFIXES: &[&str] = &[
-    "act", "active", "after", "boxes", "calm", "commit", "drives", "duration", "empty", "enter", "excite", "gates",
-    "hands", "inputs", "leave", "levels", "net", "outputs", "places", "put", "scan", "table", "take", "vacant", "wait",
-    "words", "writes",
+    "act",
+    "active",
+    "after",
+    "boxes",
+    "calm",
+    "commit",
+    "drives",
+    "duration",
+    "empty",
+    "enter",
+    "excite",
+    "force",
+    "force_put",
+    "force_take",
+    "gates",
+    "hands",
+    "hold",
+    "inputs",
+    "leave",
+    "levels",
+    "mode",
+    "net",
+    "obey",
+    "outputs",
+    "places",
+    "put",
+    "record",
+    "scan",
+    "swap",
+    "table",
+    "take",
+    "try",
+    "vacant",
+    "wait",
+    "words",
+    "writes",
 ];
 
 /// What stands behind the tag of a net in names of what is made of it.
@@ -128,32 +168,36 @@ pub(crate) fn layout(
     let parts: Vec<&NetLayout> =
         (0..net.parts.len() as u32).filter_map(|part| inside(PartId(part))).map(|(_, layout)| layout).collect();
     let held = unit.signals.iter().position(|signal| signal.role == Role::Held).unwrap_or(unit.signals.len());
-    let fast = facts::is_plain(net) && parts.iter().all(|part| part.form == NetForm::Fast);
+    let timed = net.has_time() || parts.iter().any(|part| part.timed);
     NetLayout {
         held,
         boxes,
         names,
         nets: 1 + parts.iter().map(|part| part.nets).sum::<usize>(),
-        timed: net.has_time() || parts.iter().any(|part| part.timed),
+        timed,
+        clocked: timed && (net.operation.is_some() || parts.iter().any(|part| part.clocked)),
         table,
         scratch,
-        form: if fast { NetForm::Fast } else { NetForm::Table },
+        moded: net.operation.is_some(),
         ..NetLayout::default()
     }
 }
 
-/// Settles the form of each net, that of a net inside going by the one around it, and what an instance keeps.
+/// Settles what an instance of each net keeps in a form.
 pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) {
     let called = called(program, units);
-    let part = forms(program, units, form);
-    macro_moves(program, units);
+    let part = parts(program, units);
+    tell_parts(program, units);
     for index in 1..units.len() {
         let unit = &program.units[index];
         let (Some(net), Some(layout)) = (net_of(program, unit), units[index].net.as_mut()) else {
             continue;
         };
         (layout.called, layout.top) = called[index];
+        layout.form = form;
         layout.facts = facts::of(program, net, unit, layout.held, part[index]);
+        // Under an operator something may happen in each scan.
+        layout.facts.ticking |= layout.moded || net.blocked.is_some();
         layout.fields = match layout.form {
             NetForm::Table => table_fields(net, layout),
             NetForm::Fast => fast_fields(net, layout),
@@ -177,16 +221,21 @@ fn name_hands(unit: &mut UnitLayout<'_>, first: usize, hands: &[Option<String>])
     }
 }
 
-/// Tells macros what nets around them do with them. A net stands before those inside it.
-fn macro_moves(program: &Program, units: &mut [UnitLayout<'_>]) {
+/// Tells nets inside what nets around them do with them. A net stands before those inside it.
+fn tell_parts(program: &Program, units: &mut [UnitLayout<'_>]) {
     for (outer, unit) in program.units.iter().enumerate() {
         let Some(net) = net_of(program, unit).filter(|_| units[outer].used) else {
             continue;
         };
         let emptied = units[outer].net.as_ref().is_some_and(|layout| layout.moves.emptied);
+        let moded = units[outer].net.as_ref().is_some_and(|layout| layout.moded);
         for (i, part) in net.parts.iter().enumerate() {
             let inner = part_unit(unit, net, PartId(i as u32)).and_then(|inner| units[inner.0 as usize].net.as_mut());
-            if let (Some(place), Some(inner)) = (part.place, inner) {
+            let Some(inner) = inner else {
+                continue;
+            };
+            inner.moded |= moded;
+            if let Some(place) = part.place {
                 inner.moves.add(net, place);
                 inner.moves.emptied |= emptied || part.abort.is_some();
             }
@@ -194,29 +243,15 @@ fn macro_moves(program: &Program, units: &mut [UnitLayout<'_>]) {
     }
 }
 
-/// Gives a net and those inside it one form; tells by unit whether it stands inside another net.
-fn forms(program: &Program, units: &mut [UnitLayout<'_>], form: NetForm) -> Vec<bool> {
+/// By unit: whether it stands inside another net.
+fn parts(program: &Program, units: &[UnitLayout<'_>]) -> Vec<bool> {
     let mut part = vec![false; units.len()];
-    let mut pairs = Vec::new();
     for (outer, unit) in program.units.iter().enumerate() {
         let Some(net) = net_of(program, unit).filter(|_| units[outer].used) else {
             continue;
         };
         for inner in (0..net.parts.len() as u32).filter_map(|i| part_unit(unit, net, PartId(i))) {
             part[inner.0 as usize] = true;
-            pairs.push((outer, inner.0 as usize));
-        }
-    }
-    let is_table = |units: &[UnitLayout<'_>], index: usize| {
-        form == NetForm::Table || units[index].net.as_ref().is_some_and(|net| net.form == NetForm::Table)
-    };
-    let mut table: Vec<bool> = (0..units.len()).map(|index| is_table(units, index)).collect();
-    while let Some((a, b)) = pairs.iter().copied().find(|(a, b)| table[*a] != table[*b]) {
-        (table[a], table[b]) = (true, true);
-    }
-    for (unit, _) in units.iter_mut().zip(table).filter(|(_, table)| *table) {
-        if let Some(net) = &mut unit.net {
-            net.form = NetForm::Table;
         }
     }
     part
@@ -298,6 +333,7 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     let mut fields = Fields::default();
     fields.add_if(layout.timed, "now", "int64_t", None);
     fields.add_if(layout.timed, "period", "int64_t", None);
+    fields.0.extend(modes::fields(net, layout.clocked, layout.moded));
     fields.add_if(times, "since", "int64_t", Some(boxes));
     fields.add("active_since", "int64_t", Some(net.actives.len()));
     fields.add("active", "int32_t", Some(net.actives.len()));

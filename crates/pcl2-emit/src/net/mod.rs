@@ -2,6 +2,7 @@
 
 mod choice;
 pub(crate) mod classes;
+mod commands;
 mod ends;
 pub(crate) mod facts;
 mod fast;
@@ -9,6 +10,7 @@ mod firing;
 mod gates;
 mod inputs;
 pub(crate) mod layout;
+mod modes;
 mod moves;
 mod statements;
 mod table;
@@ -123,6 +125,7 @@ pub(crate) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
     if net.layout.form == NetForm::Fast {
         fast::start(out, net);
+        modes::start(out, net);
         classes::start(out, net.body.cx.program, net.net, &net.layout.names);
         return;
     }

@@ -40,6 +40,20 @@ static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
     if used("put") {
         put(out, net);
     }
+    if used("hold") {
+        let _ = write!(
+            out,
+            "/* A permissive term holds a gate back: the first of a scan is told. */
+static inline void {tag}_hold(struct {tag} *self, int32_t term)
+{{
+    if (self->net.blocked == 0) {{
+        self->net.blocked = term;
+    }}
+}}
+
+"
+        );
+    }
     if net.layout.facts.tracks() {
         let _ = write!(
             out,

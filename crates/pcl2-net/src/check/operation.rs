@@ -193,7 +193,9 @@ fn stopped_output(
     let (expected, help) = match (values.get(word), seen.get(word)) {
         (None, _) => ("an output", "a local is seen in the net alone"),
         (_, Some(true)) => ("each output once", "delete one of them"),
-        (Some(None), _) => ("an output that boxes drive or statements write", "ACTIVE, BLOCKED and commands fill the others"),
+        (Some(None), _) => {
+            ("an output that boxes drive or statements write", "ACTIVE, BLOCKED and commands fill the others")
+        }
         (Some(Some(_)), _) => return Some(word),
     };
     let message = format!("expected {expected}, found `{text}`");
