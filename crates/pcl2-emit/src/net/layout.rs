@@ -84,8 +84,8 @@ impl NetLayout {
 /// What stands behind the tag of a net in the names of its functions and tables, apart from functions of gates.
 const SUFFIXES: &[&str] = &[
     "act", "active", "after", "boxes", "calm", "commit", "drives", "duration", "empty", "enter", "excite", "gates",
-    "hands", "inputs", "leave", "levels", "net", "outputs", "places", "put", "scan", "table", "take", "vacant", "wait",
-    "words", "writes",
+    "hands", "inputs", "leave", "levels", "net", "outputs", "pass", "places", "put", "scan", "table", "take", "vacant",
+    "wait", "words", "writes",
 ];
 
 /// What stands behind the tag of a net in names of what is made of it.
