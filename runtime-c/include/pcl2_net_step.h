@@ -108,6 +108,19 @@ static inline int32_t pcl2_net_differ(pcl2_real a, pcl2_real b)
     return memcmp(&a, &b, sizeof a) != 0;
 }
 
+/* Not 0 where ints that stand side by side differ; the C compiler makes vectors of them. */
+static inline int32_t pcl2_net_differ_ints(const void *kept, const void *given, int32_t n)
+{
+    const int32_t *const a = kept;
+    const int32_t *const b = given;
+    int32_t differ = 0;
+    PCL2_UNROLL
+    for (int32_t i = 0; i < n; i++) {
+        differ |= a[i] ^ b[i];
+    }
+    return differ;
+}
+
 /* Who wrote outputs of a net in a scan: 0 nobody, a gate from 1, -1 somebody who counted on. */
 struct pcl2_net_writes {
     int32_t *wrote;

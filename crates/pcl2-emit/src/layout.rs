@@ -146,8 +146,8 @@ pub(crate) struct Layout<'a> {
     pub(crate) part_tags: Vec<String>,
     /// The names at file scope that are taken.
     pub(crate) tags: Namer<'static>,
-    /// By block of the program: of a net, the function that takes its inputs in.
-    pub(crate) takers: Vec<Option<String>>,
+    /// By block of the program: of a net, the function that makes its scan when something may happen.
+    pub(crate) net_scans: Vec<Option<String>>,
     /// Operator cells that follow something: block and cell, in order of the block.
     pub(crate) tracking: Vec<(u32, u32)>,
 }
@@ -294,7 +294,7 @@ impl<'a, 'c> Builder<'a, 'c> {
         let part_of = part_table(unit.blocks.len(), &self.layout.parts);
         let members = self.members(unit, &stores, &mut namer, |block| part_of[block]);
         let (stores, slots) = slots(unit, stores, &mut namer, &members, &[]);
-        self.layout.takers = self.takers(unit, &members);
+        self.layout.net_scans = self.net_scans(unit, &members);
         self.cold(unit, &members);
         self.layout.scratch = self.scratch(unit);
         self.layout.tracking = tracking(unit);
@@ -386,16 +386,16 @@ impl<'a, 'c> Builder<'a, 'c> {
         elsewhere
     }
 
-    fn takers(&mut self, unit: &Unit, members: &[Member<'_>]) -> Vec<Option<String>> {
-        let mut takers = Vec::with_capacity(unit.blocks.len());
+    fn net_scans(&mut self, unit: &Unit, members: &[Member<'_>]) -> Vec<Option<String>> {
+        let mut scans = Vec::with_capacity(unit.blocks.len());
         for (block, member) in unit.blocks.iter().zip(members) {
             let fast = |unit: UnitId| {
                 self.layout.units[unit.0 as usize].net.as_ref().is_some_and(|net| net.form == NetForm::Fast)
             };
             let net = block.unit.is_some_and(fast);
-            takers.push(net.then(|| self.tag(&format!("take_{}", member.name))));
+            scans.push(net.then(|| self.tag(&format!("scan_{}", member.name))));
         }
-        takers
+        scans
     }
 
     fn cold(&mut self, unit: &'a Unit, members: &[Member<'a>]) {

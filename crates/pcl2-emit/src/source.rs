@@ -24,7 +24,7 @@ pub(crate) fn source(cx: &Context<'_>, points: &Points, has_file: &dyn Fn(&str) 
     for unit in layout::bodies(&cx.layout) {
         bodies::functions(&mut body, cx, &mut statics, unit);
     }
-    net::takers(&mut body, &mut statics, cx);
+    net::net_scans(&mut body, &mut statics, cx);
     let kernels: Vec<facts::Facts> = cx.codes.iter().map(facts::of_kernel).collect();
     let table = rows::rows(cx, &mut statics, points.first_parameter, &kernels);
     body.push_str(&table.text);

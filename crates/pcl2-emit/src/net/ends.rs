@@ -1,7 +1,7 @@
 //! The end of a scan in the fast form: tokens come and go, outputs follow.
 
 use super::facts::waits;
-use super::fast::{inner, member};
+use super::fast::{awake, inner, member};
 use super::{NetBody, firing, modes};
 use crate::expr::Scope;
 use crate::layout::WHOLE;
@@ -59,10 +59,7 @@ pub(super) fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
         out.push_str("    self->net.inside = 0;\n");
         for (part, _, layout) in net.parts() {
             let inner = member(net, part);
-            let keeps = |name: &str| layout.net.as_ref().is_some_and(|net| net.keeps(name));
-            let mut awake = vec![format!("self->{inner}.net.restless")];
-            awake.extend(keeps("waits").then(|| format!("self->{inner}.net.waits")));
-            awake.extend(keeps("inside").then(|| format!("self->{inner}.net.inside")));
+            let awake = layout.net.as_ref().map_or_else(Vec::new, |net| awake(net, &format!("self->{inner}.")));
             let _ = writeln!(out, "    self->net.restless |= self->{inner}.net.restless;");
             let _ = writeln!(out, "    self->net.inside |= {};", awake.join(" | "));
         }

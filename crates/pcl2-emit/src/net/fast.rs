@@ -6,7 +6,7 @@
 //! that a gate took from or put into), `shown` (boxes that count among those that drive outputs).
 
 use super::facts::{generates, waits};
-use super::layout::part_unit;
+use super::layout::{NetLayout, part_unit};
 use super::tokens::{self, Held};
 use super::{INDENT, NetBody, classes, commands, ends, firing, gates, inputs, modes, moves, statements, waits};
 use crate::bodies::Body;
@@ -185,6 +185,14 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
 }
 
+/// What is not 0 where something may happen in a scan although no input changed. `root` stands before members.
+pub(super) fn awake(layout: &NetLayout, root: &str) -> Vec<String> {
+    let mut awake = vec![format!("{root}net.restless")];
+    awake.extend(layout.keeps("waits").then(|| format!("{root}net.waits")));
+    awake.extend(layout.keeps("inside").then(|| format!("{root}net.inside")));
+    awake
+}
+
 fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
     let _ = writeln!(
@@ -193,9 +201,8 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     );
     let _ = writeln!(out, "static int32_t {tag}_boxes(struct {tag} *self, int32_t changed)\n{{");
     let keeps = |name: &str| net.layout.keeps(name);
-    let mut awake = vec!["changed", "self->net.restless"];
-    awake.extend(keeps("waits").then_some("self->net.waits"));
-    awake.extend(keeps("inside").then_some("self->net.inside"));
+    let mut tests = vec!["changed".to_owned()];
+    tests.extend(awake(net.layout, "self->"));
     let mut begin = String::new();
     modes::begin(&mut begin, net);
     let _ = write!(
@@ -208,7 +215,7 @@ fn boxes(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
     int32_t happened = changed | self->net.restless;
     self->net.restless = {};
 ",
-        awake.join(" | "),
+        tests.join(" | "),
         i32::from(net.layout.facts.ticking)
     );
     if keeps("wrote") {
@@ -332,8 +339,20 @@ static void {tag}_scan(struct {tag} *self, int32_t changed)
 ",
         net.body.decl.name
     );
+    passes(out, net);
+    out.push_str("}\n\n");
+    if net.layout.top {
+        let _ = writeln!(out, "/* A scan in which nothing can happen. */");
+        let _ = writeln!(out, "static inline void {tag}_pass(struct {tag} *self)\n{{\n    self->status = 0;");
+        passes(out, net);
+        out.push_str("}\n\n");
+    }
+}
+
+/// Writes what each scan ends with.
+fn passes(out: &mut String, net: &NetBody<'_, '_, '_>) {
     if ends::active_apart(net) {
-        let _ = writeln!(out, "    {tag}_active(self);");
+        let _ = writeln!(out, "    {}_active(self);", net.tag());
     }
     match (net.layout.keeps("clock"), net.net.operation.is_some()) {
         (true, true) => out.push_str("    self->net.clock += self->net.period;\n"),
@@ -343,5 +362,4 @@ static void {tag}_scan(struct {tag} *self, int32_t changed)
         (false, _) if net.layout.timed => out.push_str("    self->net.now += self->net.period;\n"),
         (false, _) => {}
     }
-    out.push_str("}\n\n");
 }

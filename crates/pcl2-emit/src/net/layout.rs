@@ -118,6 +118,7 @@ const SUFFIXES: &[&str] = &[
     "net",
     "obey",
     "outputs",
+    "pass",
     "places",
     "put",
     "record",

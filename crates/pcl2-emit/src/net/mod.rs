@@ -22,7 +22,7 @@ use crate::bodies::Body;
 use crate::expr::{self, Scope};
 use crate::layout::UnitLayout;
 use crate::statics::Statics;
-pub(crate) use inputs::{is_top, takers, top};
+pub(crate) use inputs::{is_top, net_scans, top};
 use layout::NetLayout;
 use pcl2_lang::net::{BoxId, Net, NetBox};
 use pcl2_lang::program::{SignalId, UnitId};

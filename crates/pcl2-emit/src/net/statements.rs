@@ -161,24 +161,37 @@ pub(super) struct Input {
     pub(super) from: String,
     /// Its type.
     pub(super) ty: Type,
+    /// The signal and the port of an input; none of a command.
+    pub(super) port: Option<(SignalId, u32)>,
 }
 
 impl Input {
-    /// What tells that it changes; one without elements never does.
-    pub(super) fn change(&self) -> Option<String> {
-        (self.ty.elements() > 0).then(|| differs(self.ty, &self.to, &self.from))
+    /// One without elements never changes.
+    pub(super) fn may_change(&self) -> bool {
+        self.ty.elements() > 0
     }
-}
 
-/// What is not 0 where two values differ.
-pub(super) fn differs(ty: Type, a: &str, b: &str) -> String {
-    match (ty.is_scalar(), ty.scalar) {
-        (true, Scalar::Int) => format!("({a} ^ {b})"),
-        (true, Scalar::Real) => format!("pcl2_net_differ({a}, {b})"),
-        (false, scalar) => {
-            let size = pcl2_lang::kernel::c_scalar(scalar);
-            format!("(memcmp({a}, {b}, {} * sizeof({size})) != 0)", ty.elements())
+    /// A number that is not 0 where it changes.
+    pub(super) fn change(&self) -> Option<String> {
+        match (self.ty.is_scalar(), self.ty.scalar) {
+            (true, Scalar::Int) => Some(format!("({} ^ {})", self.to, self.from)),
+            (true, Scalar::Real) => self.differs(),
+            (false, _) => self.differs().map(|differs| format!("({differs})")),
         }
+    }
+
+    /// The condition that it changes.
+    pub(super) fn differs(&self) -> Option<String> {
+        let Input { to, from, ty, .. } = self;
+        let differs = match (ty.is_scalar(), ty.scalar) {
+            (true, Scalar::Int) => format!("{to} != {from}"),
+            (true, Scalar::Real) => format!("pcl2_net_differ({to}, {from})"),
+            (false, scalar) => {
+                let size = pcl2_lang::kernel::c_scalar(scalar);
+                format!("memcmp({to}, {from}, {} * sizeof({size})) != 0", ty.elements())
+            }
+        };
+        self.may_change().then_some(differs)
     }
 }
 
@@ -210,11 +223,12 @@ pub(super) fn inputs_of(statics: &mut Statics, call: &Call<'_, '_>, instance: &s
         };
         let mut from = String::new();
         call.source(&mut from, statics, port as usize, signal.ty);
-        inputs.push(Input { to: place(SignalId(i as u32)), from, ty: signal.ty });
+        let id = SignalId(i as u32);
+        inputs.push(Input { to: place(id), from, ty: signal.ty, port: Some((id, port)) });
     }
     for (port, word) in inside.net.latched() {
         let to = inside.word(word.0 as usize, scope);
-        inputs.push(Input { to, from: place(SignalId(port)), ty: Type::INT });
+        inputs.push(Input { to, from: place(SignalId(port)), ty: Type::INT, port: None });
     }
     inputs
 }
