@@ -141,3 +141,71 @@ fn an_output_that_cannot_be_written_fails_without_a_trace_of_it() {
     assert_eq!(status, Some(2));
     assert!(!work.path().join("out").exists());
 }
+
+/// A net in PNML is no program: each command that reads one says so, and which commands read PNML.
+#[test]
+fn a_net_in_pnml_is_refused_with_what_to_do() {
+    let work = folder();
+    let text = "<?xml version=\"1.0\"?>\n<pnml><net id=\"n\"/></pnml>\n";
+    fs::write(work.path().join("n.pnml"), text).unwrap();
+    fs::write(work.path().join("empty.pnml"), "").unwrap();
+    fs::write(work.path().join("n.cfg"), format!("\u{feff}\n  {text}")).unwrap();
+    fs::create_dir(work.path().join("project")).unwrap();
+    fs::write(work.path().join("project/pcl2.toml"), "[controller]\nsource = \"n.pnml\"\n").unwrap();
+    fs::write(work.path().join("project/n.pnml"), text).unwrap();
+    for path in ["n.pnml", "empty.pnml", "n.cfg", "project"] {
+        for command in ["check", "build -o out", "run", "fmt", "params", "graph -o out", "net report -o out"] {
+            let args: Vec<&str> = command.split(' ').chain([path]).collect();
+            let (status, said) = bounded(&args, work.path());
+            assert_eq!(status, Some(1), "{args:?}: {said}");
+            assert_eq!(
+                said.matches("error[P0008]: expected a .cfg or .net file, found `").count(),
+                1,
+                "{args:?}: {said}"
+            );
+            assert_eq!(said.matches("error").count(), 1, "{args:?}: {said}");
+            assert!(said.contains("is read by `pcl2 net` alone: analyze, matrix, fire, export"), "{args:?}: {said}");
+            assert!(path != "project" || said.contains("pcl2.toml:2:10"), "{said}");
+        }
+    }
+    assert!(!work.path().join("out").exists());
+}
+
+/// An answer that does not reach standard output is a failure, whatever the command.
+#[test]
+fn a_full_disk_is_told_by_all_commands() {
+    let work = folder();
+    fs::write(work.path().join("x.cfg"), "CONTROL\n1 x = msc ( : 1. )\nEND\n").unwrap();
+    fs::write(work.path().join("bad.cfg"), "CONTROL\n1 x = mcs ( : 1. )\nEND\n").unwrap();
+    fs::write(work.path().join("x.txt"), "x.value=2.\n").unwrap();
+    let commands = [
+        "--help",
+        "--version",
+        "run --help",
+        "blocks",
+        "blocks msc",
+        "explain P0101",
+        "check -v x.cfg",
+        "check --format json bad.cfg",
+        "build x.cfg -o out",
+        "build x.cfg -o out --emit amalgamation",
+        "run x.cfg --period 1 --steps 3",
+        "run x.cfg --period 1 --steps 3 --trace -",
+        "run x.cfg --period 1 --steps 3 --plot -",
+        "run x.cfg --period 1 --steps 3 --params -",
+        "params x.cfg",
+        "params x.cfg --from x.txt --diff",
+        "params x.cfg --from x.txt --save",
+        "graph x.cfg -o -",
+        "new project",
+    ];
+    for command in commands {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = pcl2().args(command.split(' ')).current_dir(work.path()).stdout(full).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{command}: {said}");
+        assert!(said.contains("error: cannot write "), "{command}: {said}");
+    }
+    // What nobody could see is not written into the source.
+    assert!(fs::read_to_string(work.path().join("x.cfg")).unwrap().contains(": 1. )"));
+}

@@ -60,6 +60,11 @@ fn a_mistake_is_told_once_at_its_place() {
             "P0402",
             "bad.net:3:7",
         ),
+        ("int box = bad ( : )\nSTATE a MARKED\nEND\n", "P0402", "bad.net:1:5"),
+        ("= bad ( ivec[2] v : )\nLOCAL int v[2]\nSTATE a MARKED\nEND\n", "P0402", "bad.net:2:11"),
+        ("= bad ( ivec[2] v : )\nSTATE v[1]\nEND\n", "P0402", "`v[1]`, an element of an input"),
+        ("= bad ( : )\nLOCAL int n[2]\nOPERATION a MARKED DO n[3] = 1\nEND\n", "P0401", "bad.net:3:23"),
+        ("int a,\nGATE g : ->\nEND\n", "P0002", "bad.net:2:1"),
         ("= bad ( : )\nSTATE a MARKED 2\nEND\n", "P0404", "expected at most 1 token in `a`, found 2"),
         ("= bad ( : )\nSTATE a MARKED\nSTATE b\nGATE g : 2*a -> b\nEND\n", "P0404", "at most 1 token from or to `a`"),
         (
@@ -70,7 +75,7 @@ fn a_mistake_is_told_once_at_its_place() {
         (
             "= bad ( : )\nCLASS c ( int k )\nSTATE a MARKED\nSTATE p OF c MARKED\nSTATE b OF c\nGATE g : a, p -> b\nEND\n",
             "P0405",
-            "help: say with THEN which token goes where: `THEN p -> b`",
+            "help: say with THEN which token goes where: `THEN p -> b`, `THEN a -> nothing`",
         ),
     ];
     for (text, code, words) in cases {

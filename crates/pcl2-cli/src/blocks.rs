@@ -16,10 +16,7 @@ pub(crate) fn blocks(args: &BlocksArgs) -> Outcome {
         return Outcome::Errors;
     };
     match &args.name {
-        None => {
-            console::out(&list(&catalogue));
-            Outcome::Done
-        }
+        None => console::answer(&list(&catalogue)),
         Some(name) => describe(&catalogue, name),
     }
 }
@@ -45,6 +42,5 @@ fn describe(catalogue: &Catalogue, name: &str) -> Outcome {
         console::error(&format!("no function code is called `{name}`; {help}"));
         return Outcome::Usage;
     };
-    console::out(&manual::page(decl));
-    Outcome::Done
+    console::answer(&manual::page(decl))
 }

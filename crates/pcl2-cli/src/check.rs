@@ -19,12 +19,12 @@ pub(crate) fn check(args: &CheckArgs) -> Outcome {
             Ok(project) => project,
             Err(outcome) => return outcome,
         };
-        print(&project, args.format);
+        worst = worst.max(print(&project, args.format));
         if project.diagnostics.iter().any(Diagnostic::is_error) {
             worst = worst.max(Outcome::Errors);
         }
         if let (Some(verified), true) = (&project.verified, args.verbose) {
-            console::out(&report(verified.program()));
+            worst = worst.max(console::answer(&report(verified.program())));
         }
         if args.timings {
             timings(&project);
@@ -33,13 +33,15 @@ pub(crate) fn check(args: &CheckArgs) -> Outcome {
     worst
 }
 
-fn print(project: &Project, format: Format) {
+fn print(project: &Project, format: Format) -> Outcome {
     match format {
-        Format::Text => console::diagnostics(&project.diagnostics, &project.sources, project.left_out),
+        Format::Text => {
+            console::diagnostics(&project.diagnostics, &project.sources, project.left_out);
+            Outcome::Done
+        }
         Format::Json => {
-            for diagnostic in &project.diagnostics {
-                console::out(&format!("{}\n", diagnostic::to_json(diagnostic, &project.sources)));
-            }
+            let line = |diagnostic| format!("{}\n", diagnostic::to_json(diagnostic, &project.sources));
+            console::answer(&project.diagnostics.iter().map(line).collect::<String>())
         }
     }
 }

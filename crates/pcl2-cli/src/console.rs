@@ -6,15 +6,16 @@ use pcl2_lang::render;
 use pcl2_lang::source::Sources;
 use std::io::{ErrorKind, IsTerminal, Write};
 
-/// Writes to standard output.
-pub(crate) fn out(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
-}
-
 /// Writes a command's answer to standard output: one that is lost is a failure.
+#[must_use]
 pub(crate) fn answer(text: &str) -> Outcome {
     let mut stdout = std::io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    arrived(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
+}
+
+/// How writing to standard output ended.
+pub(crate) fn arrived(written: std::io::Result<()>) -> Outcome {
+    match written {
         Err(why) if why.kind() != ErrorKind::BrokenPipe => {
             error(&format!("cannot write to standard output: {why}"));
             Outcome::Failed

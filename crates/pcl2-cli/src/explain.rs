@@ -11,8 +11,7 @@ pub(crate) fn explain(args: &ExplainArgs) -> Outcome {
     let code = args.code.to_ascii_uppercase();
     let page = |(name, _): &&(&str, &str)| name.strip_suffix(".md") == Some(code.as_str());
     if let Some((_, text)) = catalogue::pages().iter().find(page) {
-        console::out(text);
-        return Outcome::Done;
+        return console::answer(text);
     }
     let known = catalogue::pages().iter().filter_map(|(name, _)| name.strip_suffix(".md"));
     let help = suggest::help(&code, known).unwrap_or_else(|| "codes look like P0203".to_owned());

@@ -29,8 +29,9 @@ fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { Outcome::Usage.code() } else { 0 });
+            let printed = error.print();
+            let outcome = if error.use_stderr() { Outcome::Usage } else { console::arrived(printed) };
+            return ExitCode::from(outcome.code());
         }
     };
     let outcome = match cli.command {

@@ -19,6 +19,11 @@ pub(crate) fn is_net(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "net")
 }
 
+/// Whether a file has the interchange format of nets.
+pub(crate) fn is_pnml(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "pnml")
+}
+
 /// Reads a net that is a program of its own, and those in it. `None`: there is nothing to compile.
 pub(crate) fn tree(loader: &mut Loader, file: FileId, stem: &str, catalogue: &mut Catalogue) -> Option<Tree> {
     let read = net::read(&loader.sources, file, stem, &mut loader.symbols, &mut loader.diagnostics)?;

@@ -14,6 +14,11 @@ pub(crate) enum Outcome {
 }
 
 impl Outcome {
+    /// Goes on after what is done, and ends with anything else.
+    pub(crate) fn done(self) -> Result<(), Outcome> {
+        if self == Outcome::Done { Ok(()) } else { Err(self) }
+    }
+
     /// The exit status.
     pub(crate) fn code(self) -> u8 {
         match self {

@@ -240,7 +240,7 @@ impl Loader {
         let path = source;
         let source = path.as_deref().and_then(|source| match self.replaced.take() {
             Some(text) => Some(self.sources.add(source.display().to_string(), text)),
-            None => self.read_source(source, MAX_SOURCE, named),
+            None => self.read_program(source, named),
         });
         Place { source, path, root, stem, config }
     }
@@ -257,6 +257,18 @@ impl Loader {
             self.diagnostics.push(Diagnostic::new(codes::CONFIGURATION, start_of(file), message));
         }
         (source, root, config)
+    }
+
+    /// Reads a program, which XML cannot be: nets in PNML are for other commands.
+    fn read_program(&mut self, path: &Path, named: Option<Span>) -> Option<FileId> {
+        let file = self.read_source(path, MAX_SOURCE, named)?;
+        if !nets::is_pnml(path) && !self.sources.file(file).bytes().trim_ascii_start().starts_with(b"<") {
+            return Some(file);
+        }
+        let message = format!("expected a .cfg or .net file, found `{}`, which is XML", path.display());
+        let report = Diagnostic::new(codes::UNREADABLE, named.unwrap_or_else(|| start_of(file)), message);
+        self.diagnostics.push(report.help("a net in PNML is read by `pcl2 net` alone: analyze, matrix, fire, export"));
+        None
     }
 
     /// Reads a source; a file that cannot be read is a diagnostic, where the file is named if that is a place.

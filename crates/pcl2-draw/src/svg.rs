@@ -22,6 +22,15 @@ pub fn brief(text: &str, limit: usize) -> String {
     text.chars().take(limit.saturating_sub(1)).chain(['…']).collect()
 }
 
+/// The same, cut between two words where there are several.
+pub fn brief_words(text: &str, limit: usize) -> String {
+    let brief = brief(text, limit);
+    match brief.rsplit_once(' ') {
+        Some((words, _)) if brief != text => format!("{words} …"),
+        Some(_) | None => brief,
+    }
+}
+
 /// A text as XML content or inside quotes. Characters that XML does not have are replaced.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -71,5 +80,8 @@ mod tests {
     fn long_texts_are_cut() {
         assert_eq!(brief("temperature", 6), "tempe…");
         assert_eq!(brief("level", 5), "level");
+        assert_eq!(brief_words("the level of a tank", 12), "the level …");
+        assert_eq!(brief_words("a level", 7), "a level");
+        assert_eq!(brief_words("temperature", 6), "tempe…");
     }
 }

@@ -43,6 +43,8 @@ pub struct Statement {
     pub colon: Span,
     /// From the first token to the closing parenthesis.
     pub span: Span,
+    /// In a net the counters of the FOR lines around it, and their values.
+    pub counters: Box<[(Name, i32)]>,
 }
 
 impl Statement {
@@ -54,7 +56,7 @@ impl Statement {
         (items, inputs): (Box<[Item]>, u32),
         (colon, span): (Span, Span),
     ) -> Statement {
-        Statement { number, outputs, code, formula: None, items, inputs, colon, span }
+        Statement { number, outputs, code, formula: None, items, inputs, colon, span, counters: Box::default() }
     }
 
     /// A call with operands by position and without parameters.
@@ -79,6 +81,11 @@ impl Statement {
     /// The input list; an empty list has one empty item. Of an expression the operands in order.
     pub fn inputs(&self) -> &[Item] {
         &self.items[..self.inputs as usize]
+    }
+
+    /// The same, to be changed.
+    pub fn inputs_mut(&mut self) -> &mut [Item] {
+        &mut self.items[..self.inputs as usize]
     }
 
     /// The parameter list; an empty list has one empty item. An expression has none.

@@ -97,25 +97,22 @@ fn one(args: &BuildArgs, project: &Project, verified: &Verified, toolchain: &Too
     };
     let options = Build { emit: project.emit_options(), shared: args.paths.len() > 1 };
     let target = &args.output;
-    match args.emit {
-        Emit::C => {
-            let emitted = emit_into(target, cut, project, &options)?;
-            console::out(&summary(verified, cut, &emitted, args.part, None));
-        }
+    let (emitted, footprint) = match args.emit {
+        Emit::C => (emit_into(target, cut, project, &options)?, None),
         Emit::Amalgamation => {
             let mut emitted = pcl2_emit::emit(cut, &project.sources, &options.emit);
             emitted.files = amalgamate(&emitted);
             write_all(target, &emitted.files)?;
-            console::out(&summary(verified, cut, &emitted, args.part, None));
+            (emitted, None)
         }
         Emit::Obj | Emit::Lib | Emit::Exe => {
             let folder = tempfile::tempdir().map_err(|error| failed(format!("no temporary folder: {error}")))?;
             let emitted = emit_into(folder.path(), cut, project, &options)?;
             let footprint = compile(args.emit, folder.path(), target, &emitted, toolchain)?;
-            console::out(&summary(verified, cut, &emitted, args.part, Some(&footprint)));
+            (emitted, Some(footprint))
         }
-    }
-    Ok(())
+    };
+    console::answer(&summary(verified, cut, &emitted, args.part, footprint.as_ref())).done()
 }
 
 /// Writes the C of a program. Where several programs share a folder, each has a makefile of its own.

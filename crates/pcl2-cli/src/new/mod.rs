@@ -38,10 +38,7 @@ pub(crate) fn new(args: &NewArgs) -> Outcome {
         return Outcome::Usage;
     }
     match create(Path::new(name), name) {
-        Ok(()) => {
-            console::out(&next(name));
-            Outcome::Done
-        }
+        Ok(()) => console::answer(&next(name)),
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
             console::error(&format!("`{name}` exists: nothing is written"));
             Outcome::Usage

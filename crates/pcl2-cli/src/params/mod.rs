@@ -41,10 +41,7 @@ pub(crate) fn params(args: &ParamsArgs) -> Outcome {
         Err(outcome) => return outcome,
     };
     match &args.from {
-        None => {
-            console::out(&table::list(verified.program(), args.format));
-            Outcome::Done
-        }
+        None => console::answer(&table::list(verified.program(), args.format)),
         Some(file) => compare(args, file, &project, &verified),
     }
 }
@@ -58,9 +55,9 @@ fn compare(args: &ParamsArgs, file: &std::path::Path, project: &Project, verifie
             return Outcome::Errors;
         }
     };
-    console::out(&table::differences(&names, &changes, args.format));
-    if !args.save {
-        return Outcome::Done;
+    let told = console::answer(&table::differences(&names, &changes, args.format));
+    if !args.save || told != Outcome::Done {
+        return told;
     }
     match save::save(args, project, &names, &changes) {
         Ok(outcome) => outcome,

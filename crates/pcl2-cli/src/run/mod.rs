@@ -128,7 +128,7 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
         })
     });
     match ended {
-        Ok(()) => Outcome::Done,
+        Ok(outcome) => outcome,
         Err(failure) => failure.report(),
     }
 }
@@ -164,7 +164,7 @@ fn execute(
     job: &Job<'_>,
     mut recorder: Recorder,
     engine: impl FnOnce(&mut Recorder) -> Result<Finished, Failure>,
-) -> Result<(), Failure> {
+) -> Result<Outcome, Failure> {
     let is_stdout = |path: &Option<PathBuf>| path.as_deref().is_some_and(files::is_stdout);
     if is_stdout(&args.trace) && is_stdout(&args.plot) {
         return Err(Failure::usage("only one of --trace and --plot can go to standard output"));
@@ -183,13 +183,11 @@ fn execute(
     for output in trace.into_iter().chain([params, plot].into_iter().flatten().map(|(_, output)| output)) {
         output.keep()?;
     }
-    if !to_stdout {
-        console::out(&summary::text(job, &history));
-    }
+    let told = if to_stdout { Outcome::Done } else { console::answer(&summary::text(job, &history)) };
     for line in finished.health.lines(job.names.program) {
         console::err(&line);
     }
-    Ok(())
+    Ok(told)
 }
 
 /// Opens an output that is wanted.

@@ -58,7 +58,8 @@ pub(crate) fn picture(written: &Written<'_>, scene: &Scene) -> String {
     let (boxes, gates) = (net.net.boxes.len(), net.net.gates.len());
     let counts = format!(", {boxes} {}, {gates} {}", plural("box", "boxes", boxes), plural("gate", "gates", gates));
     let title = format!("{}{counts}", net.decl.name);
-    let summary = svg::brief(&net.decl.doc.split_whitespace().collect::<Vec<_>>().join(" "), SUMMARY);
+    let whole = net.decl.doc.split_whitespace().collect::<Vec<_>>().join(" ");
+    let summary = svg::brief_words(&whole, SUMMARY);
     let width = scene.width.max(svg::width(&title, 15)).max(svg::width(&summary, 11));
     let legend = legend::legend(scene, width);
     let top = EDGE + TITLE;
@@ -67,10 +68,11 @@ pub(crate) fn picture(written: &Written<'_>, scene: &Scene) -> String {
     let _ = writeln!(
         text,
         "<text class='head' x='{EDGE}' y='{}'>{}<tspan class='rate'>{counts}</tspan></text>\n\
-         <text class='summary' x='{EDGE}' y='{}'>{}</text>",
+         <text class='summary' x='{EDGE}' y='{}'>{}{}</text>",
         EDGE + 12,
         escape(&net.decl.name),
         EDGE + 30,
+        if summary == whole { String::new() } else { format!("<title>{}</title>", escape(&whole)) },
         escape(&summary)
     );
     put_inside(&mut text, scene, (EDGE, top));

@@ -1,6 +1,6 @@
 //! What was written in a `.net` file, below its head.
 
-use super::{Name, Number, Operand, Statement};
+use super::{Name, Number, Statement};
 use crate::source::Span;
 use crate::types::Scalar;
 
@@ -131,7 +131,7 @@ pub struct BoxLine {
     /// Its name.
     pub name: BoxName,
     /// The time or the number of tokens.
-    pub quantity: Option<(Operand, Span)>,
+    pub quantity: Option<Box<Statement>>,
     /// What else was said.
     pub clauses: Vec<BoxClause>,
     /// The line.
@@ -156,7 +156,7 @@ pub enum BoxClause {
     /// `WHEN condition`
     When(Box<Statement>),
     /// `WITHIN t`
-    Within(Operand, Span),
+    Within(Box<Statement>),
     /// `DO statement`
     Do(Box<Statement>),
 }

@@ -76,7 +76,7 @@ impl<'a> Lines<'a> {
         let (mut equals, mut colon) = (None, false);
         while let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) {
             match lexeme.token {
-                Token::Newline if open.is_empty() && self.tokens.is_empty() => continue,
+                Token::Newline if open.is_empty() && (self.tokens.is_empty() || self.goes_on()) => continue,
                 Token::Newline if open.is_empty() => break,
                 Token::Newline if self.starts_statement() => break,
                 Token::Newline => continue,
@@ -144,6 +144,18 @@ impl<'a> Lines<'a> {
 
     pub(super) fn span(&self, lexeme: Lexeme) -> Span {
         Span { file: self.file, start: lexeme.start, end: lexeme.end }
+    }
+
+    /// Whether a declaration goes on behind the end of a line: a list has a comma there.
+    fn goes_on(&self) -> bool {
+        let comma = self.tokens.last().is_some_and(|last| last.token == Token::Comma);
+        comma && self.words == Words::Declarations && !self.starts_clause()
+    }
+
+    /// Whether a clause word comes next.
+    fn starts_clause(&self) -> bool {
+        let next = self.lexer.clone().map(|lexeme| lexeme.token).find(|token| *token != Token::Newline);
+        matches!(next, Some(Token::Key(key)) if key.begins_line())
     }
 
     fn push_replacement(&mut self, token: Option<Token>, lexeme: Lexeme, open: &mut Vec<Lexeme>) {

@@ -78,7 +78,7 @@ pub struct Context<'a> {
     depths: Vec<u32>,
     too_deep: bool,
     /// The counters of the FOR lines around the line, and their values.
-    counters: Vec<(Symbol, i32)>,
+    counters: Vec<(Name, i32)>,
     /// How often the lines of FOR were read.
     turns: usize,
 }
@@ -284,7 +284,9 @@ impl<'a> Context<'a> {
     ) -> Box<Statement> {
         let outputs = self.outputs.drain(..).collect();
         let items = self.items.drain(..).collect();
-        Box::new(Statement::new(number, outputs, code, (items, inputs), (colon, self.span(start, end))))
+        let mut statement = Statement::new(number, outputs, code, (items, inputs), (colon, self.span(start, end)));
+        statement.counters = self.turn();
+        Box::new(statement)
     }
 
     /// A statement whose right side, from `first` to `end`, is an expression.
@@ -306,6 +308,7 @@ impl<'a> Context<'a> {
         let last = Span { start: end.saturating_sub(1).max(first), ..place };
         let mut statement = Statement::new(number, outputs, code, (items, inputs), (last, self.span(start, end)));
         statement.formula = Some(Box::new(formula));
+        statement.counters = self.turn();
         Box::new(statement)
     }
 

@@ -1,8 +1,8 @@
 //! The lines of a net below its head. The lines between FOR and NEXT are parsed once for each value of the counter.
 
 use super::{Context, Lines, cfg};
-use crate::ast::Name;
 use crate::ast::net::NetLine;
+use crate::ast::{Name, Operand, Statement};
 use crate::codes;
 use crate::diagnostic::{self, Diagnostic};
 use crate::lexer::{Key, Lexeme, Token};
@@ -114,7 +114,7 @@ fn repeat(
     }
     for value in from.0..=to.0 {
         let before = context.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count();
-        context.counters.push((name.symbol, value as i32));
+        context.counters.push((name, value as i32));
         block(context, rows, parsed);
         context.counters.pop();
         let after = context.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count();
@@ -158,7 +158,7 @@ impl Context<'_> {
 
     /// The value of a FOR counter, and something more.
     pub(super) fn counter(&mut self, name: Name, more: i64) -> (i32, Span) {
-        let known = self.counters.iter().rev().find(|(symbol, _)| *symbol == name.symbol);
+        let known = self.counters.iter().rev().find(|(counter, _)| counter.symbol == name.symbol);
         let Some((_, value)) = known else {
             let text = self.symbols.text(name.symbol);
             let message = format!("expected a number, found `{text}`");
@@ -168,6 +168,19 @@ impl Context<'_> {
             return (1, name.span);
         };
         (i32::try_from(i64::from(*value) + more).unwrap_or(0), name.span)
+    }
+
+    /// A value that is asked for.
+    pub(super) fn value(&mut self, operand: Operand, start: u32, end: u32) -> Box<Statement> {
+        let code = Name { symbol: self.symbols.intern(""), span: self.span(start, end) };
+        let mut statement = Statement::value(operand, code);
+        statement.counters = self.turn();
+        Box::new(statement)
+    }
+
+    /// The values of the counters, for a statement.
+    pub(super) fn turn(&self) -> Box<[(Name, i32)]> {
+        self.counters.as_slice().into()
     }
 
     /// `idle[3]` as one name.

@@ -83,7 +83,7 @@ impl Filler<'_, '_> {
             BoxClause::Marked(..) => kind != BoxKind::Generation,
             BoxClause::Drives(_) | BoxClause::Do(_) => true,
             BoxClause::Size(..) | BoxClause::Order(..) => matches!(kind, BoxKind::Capacity | BoxKind::Generation),
-            BoxClause::Until(_) | BoxClause::Within(..) => kind == BoxKind::Process,
+            BoxClause::Until(_) | BoxClause::Within(_) => kind == BoxKind::Process,
             BoxClause::When(_) => kind == BoxKind::Generation,
         }
     }
@@ -109,7 +109,7 @@ impl Filler<'_, '_> {
                 BoxClause::Of(name) => self.class(*name),
                 BoxClause::Drives(names) => names.iter().for_each(|name| self.drives(*name)),
                 BoxClause::Size(..) | BoxClause::Order(..) | BoxClause::Marked(..) | BoxClause::Until(_) => {}
-                BoxClause::When(_) | BoxClause::Within(..) | BoxClause::Do(_) => {}
+                BoxClause::When(_) | BoxClause::Within(_) | BoxClause::Do(_) => {}
             }
         }
         for clause in &self.line.clauses {
@@ -129,7 +129,7 @@ impl Filler<'_, '_> {
             BoxClause::Drives(names) => ("DRIVES", names.first().map_or(line, |name| name.span)),
             BoxClause::Until(condition) => ("UNTIL", condition.span),
             BoxClause::When(condition) => ("WHEN", condition.span),
-            BoxClause::Within(_, span) => ("WITHIN", *span),
+            BoxClause::Within(value) => ("WITHIN", value.span),
             BoxClause::Do(statement) => ("DO", statement.span),
         }
     }
@@ -222,8 +222,9 @@ impl Filler<'_, '_> {
 
     /// The number of tokens of a counting box.
     fn count(&mut self) -> Option<u32> {
-        let (operand, span) = self.line.quantity.clone()?;
-        match operand {
+        let quantity = self.line.quantity.as_ref()?;
+        let span = quantity.span;
+        match quantity.inputs().first()?.value {
             Operand::Number(pcl2_lang::ast::Number::Int(value)) if value >= 1 && value as usize <= MAX_COUNT => {
                 return Some(value.unsigned_abs());
             }
@@ -302,7 +303,7 @@ impl Filler<'_, '_> {
             BoxKind::Capacity => Kind::Capacity,
             BoxKind::Count => Kind::Count,
             BoxKind::Time => match line.quantity.clone() {
-                Some((operand, span)) => Kind::Time(self.builder.value(operand, span)),
+                Some(time) => Kind::Time(self.builder.statement(*time)),
                 None => Kind::State,
             },
             BoxKind::Operation | BoxKind::Signal => self.action(&line, enter),
@@ -338,7 +339,7 @@ impl Filler<'_, '_> {
         for clause in &line.clauses {
             match clause {
                 BoxClause::Until(condition) => process.until = Some(self.builder.statement((**condition).clone())),
-                BoxClause::Within(operand, span) => process.within = Some(self.builder.value(operand.clone(), *span)),
+                BoxClause::Within(time) => process.within = Some(self.builder.statement((**time).clone())),
                 _ => {}
             }
         }

@@ -310,7 +310,9 @@ impl Reader<'_, '_> {
         let (class, name) = (net.place(to).class, &net.place(to).name);
         let before = || gate.before.iter().map(|arc| net.place(arc.place));
         if let Some(from) = before().find(|place| place.class == class) {
-            return format!("say with THEN which token goes where: `THEN {} -> {name}`", from.name);
+            let others = before().filter(|place| place.name != from.name);
+            let vanish: String = others.map(|place| format!(", `THEN {} -> nothing`", place.name)).collect();
+            return format!("say with THEN which token goes where: `THEN {} -> {name}`{vanish}", from.name);
         }
         let vanish = before().map(|place| format!("`THEN {} -> nothing`, ", place.name)).collect::<String>();
         format!("make a new one: {vanish}`THEN NEW -> {name}`")

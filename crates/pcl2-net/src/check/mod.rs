@@ -92,7 +92,6 @@ pub(crate) struct Builder<'a> {
     written: Vec<Option<Span>>,
     /// By word: what drives it.
     levels: Vec<Vec<Level>>,
-    empty: Symbol,
 }
 
 /// What a name stands for.
@@ -117,7 +116,7 @@ impl<'a> Builder<'a> {
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Builder<'a> {
         decl.bad = Some(BadRule::Logic);
-        let empty = symbols.intern("");
+        symbols.intern("");
         symbols.intern(BOX_OUTPUT);
         Builder {
             decl,
@@ -130,7 +129,6 @@ impl<'a> Builder<'a> {
             names: FxHashMap::default(),
             written: Vec::new(),
             levels: Vec::new(),
-            empty,
         }
     }
 
@@ -163,6 +161,7 @@ impl<'a> Builder<'a> {
             let message = format!("expected at most {MAX_COUNT} statements in a net, found more");
             self.complain(codes::TOO_LARGE, statement.span, message, "divide the net");
         }
+        self.name_elements(&mut statement);
         let touched = self.touched(&statement);
         if touched.writes.len() + touched.counts.len() > MAX_WRITES {
             let message = format!("expected at most {MAX_WRITES} outputs of a statement, found more");
@@ -175,6 +174,22 @@ impl<'a> Builder<'a> {
         }
         self.statements.push(statement);
         id
+    }
+
+    /// `n[3]` is a word where one has that name, else the element of a vector or a box.
+    fn name_elements(&mut self, statement: &mut Statement) {
+        for item in statement.inputs_mut() {
+            let Operand::Element(element) = &item.value else {
+                continue;
+            };
+            let (name, [(index, _)]) = (element.0, element.1.as_slice()) else {
+                continue;
+            };
+            let symbol = self.symbols.intern(&format!("{}[{index}]", self.text(name)));
+            if let Some((Thing::Word(_) | Thing::Spoiled, _)) = self.names.get(&symbol) {
+                item.value = Operand::Name(Name { symbol, span: item.span });
+            }
+        }
     }
 
     /// Adds a statement that writes words or attributes.
@@ -228,12 +243,6 @@ impl<'a> Builder<'a> {
         looks.dedup();
         touched.looks = looks;
         touched
-    }
-
-    /// Adds a statement for a value that is asked for.
-    fn value(&mut self, operand: Operand, span: Span) -> StatementId {
-        let code = Name { symbol: self.empty, span };
-        self.statement(Statement::value(operand, code))
     }
 
     fn unknown(&mut self, name: Name, expected: &str) {

@@ -108,6 +108,13 @@ impl Builder<'_> {
             let message =
                 format!("expected another name than `{BOX_OUTPUT}`, which every net has for the tokens of its boxes");
             self.complain(codes::NET_NAME_TAKEN, name.span, message, "take another name");
+            self.names.insert(name.symbol, (Thing::Spoiled, name.span));
+            return;
+        }
+        if let Some((_, other)) = self.port_of(&text) {
+            let message = format!("expected a name of its own, found `{text}`, an element of an input");
+            let report = pcl2_lang::diagnostic::Diagnostic::new(codes::NET_NAME_TAKEN, name.span, message);
+            self.diagnostics.push(report.label(other, "the input").help("take another name"));
         }
         match self.names.get(&name.symbol) {
             Some((_, other)) => {
@@ -122,6 +129,13 @@ impl Builder<'_> {
                 self.names.insert(name.symbol, (thing, name.span));
             }
         }
+    }
+
+    /// The input whose element is called so.
+    fn port_of(&self, text: &str) -> Option<(Thing, Span)> {
+        let (owner, _) = text.split_once('[')?;
+        let known = self.names.get(&self.symbols.find(owner)?).copied();
+        known.filter(|(thing, _)| *thing == Thing::Port)
     }
 
     fn word(&mut self, name: &str, scalar: Scalar, initial: Value, span: Span) {

@@ -66,7 +66,8 @@ impl Flattener<'_> {
         let mut depth = 0_u32;
         for lexeme in Lexer::new(&source.text, &NET_WORDS) {
             match lexeme.token {
-                Token::Newline if depth == 0 && !head.is_empty() => break,
+                // A line ends behind no comma.
+                Token::Newline if depth == 0 && !head.is_empty() && !head.ends_with(", ") => break,
                 Token::Newline => continue,
                 Token::LeftParen => depth += 1,
                 Token::RightParen => depth = depth.saturating_sub(1),

@@ -1,10 +1,12 @@
 //! A net as its author wrote it: what pictures and reports show beside what the compiler knows.
 
+mod turn;
 mod words;
 
 pub use words::weighted;
 
 use super::Net;
+use crate::ast::Statement;
 use crate::catalogue::Catalogue;
 use crate::decl::Decl;
 use crate::source::{Sources, Span};
@@ -23,7 +25,7 @@ pub struct WrittenNet<'a> {
     pub decl: &'a Decl,
     /// Its boxes and gates.
     pub net: &'a Net,
-    /// Its statements as written, each on one line.
+    /// Its statements as written, each on one line, with numbers for the counters of FOR.
     pub statements: Vec<String>,
     /// By box: the word that its line begins with.
     pub words: Vec<String>,
@@ -51,7 +53,7 @@ pub fn read<'a>(decl: &'a Decl, sources: &Sources, catalogue: &'a Catalogue) -> 
     Some(Written { nets })
 }
 
-fn decl_body(decl: &Decl) -> &[crate::ast::Statement] {
+fn decl_body(decl: &Decl) -> &[Statement] {
     decl.body.as_deref().unwrap_or(&[])
 }
 
@@ -59,10 +61,11 @@ fn texts<'a>(decl: &'a Decl, sources: &Sources) -> Option<WrittenNet<'a>> {
     let net = decl.net.as_deref()?;
     let line = |span: Span| one_line(sources.text(span));
     let word = |span: Span| line(span).split(' ').next().unwrap_or_default().to_owned();
+    let statement = |statement: &Statement| turn::counted(line(statement.span), &statement.counters, sources);
     Some(WrittenNet {
         decl,
         net,
-        statements: decl_body(decl).iter().map(|statement| line(statement.span)).collect(),
+        statements: decl_body(decl).iter().map(statement).collect(),
         words: net.boxes.iter().map(|place| word(place.span)).collect(),
         parts: Vec::new(),
     })
