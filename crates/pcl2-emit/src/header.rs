@@ -135,7 +135,7 @@ fn body_struct<'c>(out: &mut String, cx: &'c Context<'_>, unit: UnitId, declared
         for field in &net.fields {
             shape::field(out, "        ", field);
         }
-        out.push_str("    } net; /* what the player of nets keeps */\n");
+        out.push_str("    } net; /* what the net keeps beside */\n");
     }
     if layout.facts.status || out.len() == start {
         out.push_str("    int32_t status; /* 0, or the first fault of a block inside in the last scan */\n");

@@ -7,6 +7,7 @@ use pcl2_lang::net::{Arc, BoxId, Kind};
 use std::fmt::Write;
 
 const CASE: &str = "        ";
+const FORCED: &str = "forced || ";
 
 /// Whether a command can fire gates.
 pub(super) fn fires(net: &NetBody<'_, '_, '_>) -> bool {
@@ -20,7 +21,16 @@ pub(super) fn obeys(net: &NetBody<'_, '_, '_>) -> bool {
 
 /// A condition of a gate, which a command fires whatever it says.
 pub(super) fn or_forced(net: &NetBody<'_, '_, '_>, condition: String) -> String {
-    if fires(net) { format!("(forced || ({condition}))") } else { condition }
+    if fires(net) { format!("{FORCED}({condition})") } else { condition }
+}
+
+/// All of these tests, on lines of this indent.
+pub(super) fn all(tests: &[String], indent: &str) -> String {
+    let within = |test: &String| if test.starts_with(FORCED) { format!("({test})") } else { test.clone() };
+    match tests {
+        [sole] => sole.clone(),
+        _ => tests.iter().map(within).collect::<Vec<_>>().join(&format!("\n{indent}    && ")),
+    }
 }
 
 /// Writes the gate phase of a net in manual mode.

@@ -87,7 +87,7 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
             }),
             (true, false) => guarded(out, &allowed, |out| fire(out, statics, "                ")),
             (false, false) => guarded(out, &tests, |out| {
-                let _ = writeln!(out, "                if ({}) {{", allowed.join(" && "));
+                let _ = writeln!(out, "                if ({}) {{", commands::all(&allowed, "                "));
                 fire(out, statics, "                    ");
                 out.push_str("                }\n");
                 out.push_str("                break;\n");
@@ -103,7 +103,7 @@ fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate
 }
 
 fn guarded(out: &mut String, tests: &[String], body: impl FnOnce(&mut String)) {
-    let _ = writeln!(out, "{INDENT}if ({}) {{", tests.join(&format!("\n{INDENT}    && ")));
+    let _ = writeln!(out, "{INDENT}if ({}) {{", commands::all(tests, INDENT));
     body(out);
     let _ = writeln!(out, "{INDENT}}}");
 }
