@@ -93,6 +93,14 @@ END
     assert_eq!(column(&trace, "w"), [1., 0., 2., 3., 3.]);
 }
 
+/// A net that is stopped from the start holds what its outputs were before: what START says.
+#[test]
+fn a_net_that_never_ran_holds_what_it_began_with() {
+    let net = "int y = never ( int mode : )\nMODE mode\nSTOP y = HOLD\nSTATE s MARKED DRIVES y\nEND\n";
+    let trace = traced(&[("never.net", net)], "k,mode\n0,3\n2,0\n3,3\n", &["--steps", "5"]);
+    assert_eq!(column(&trace, "y"), [0., 0., 1., 1., 1.]);
+}
+
 const HANDS: &str =
     "int y, int last, int why = hands ( int mode, cell int next = 0, cell int fire = 0, cell int put = 0
                                   , cell int take = 0, int ok : )

@@ -56,3 +56,24 @@ END
     assert_eq!(column(&trace, "seen"), [0., 0., 0., 10., 10., 10., 10., 10.]);
     assert_eq!(column(&trace, "again"), column(&trace, "seen"));
 }
+
+/// A new token is new, also in the box whose token the gate took away.
+#[test]
+fn a_new_token_has_the_first_values() {
+    let net = "int told, int sent, int seen = renew ( int go : )
+CLASS c ( int n = 1 )
+STATE seat OF c MARKED ( n = 5 )
+OPERATION out OF c DO sent = out.n
+GATE g : seat -> seat, out IF go
+THEN NEW -> seat
+THEN seat -> out
+DO seen = seat.n
+GATE h : out -> IF NOT go
+DO told = seat.n
+END
+";
+    let trace = traced(&[("renew.net", net)], "k,go\n0,1\n1,0\n", &["--steps", "4"]);
+    assert_eq!(column(&trace, "seen"), [5.; 4]);
+    assert_eq!(column(&trace, "sent"), [0., 5., 5., 5.]);
+    assert_eq!(column(&trace, "told"), [0., 1., 1., 1.]);
+}

@@ -371,6 +371,23 @@ static void net_put(struct pcl2_net *net, int32_t from, const pcl2_net_word *arc
     }
 }
 
+/* Puts the tokens that were taken, or new ones. The new token of a box before the gate has no hand of its own. */
+static void net_deposit(struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule, int32_t index,
+                        int32_t new_ones)
+{
+    const pcl2_net_word *befores = gate + 6, *afters = befores + 2 * gate[0], *move = rule->moves + 1;
+    for (int32_t i = 0; i < rule->moves[0]; i++, move += 2 + move[1]) {
+        for (int32_t j = 0; (move[0] == 0) == new_ones && j < move[1]; j++) {
+            const pcl2_net_word *arc = afters + 2 * move[2 + j];
+            const int32_t taken = net_weight_in(befores, gate[0], arc[0]), excess = arc[1] - taken;
+            if (new_ones && taken > 0) {
+                net_fresh(net, net_box_record(net, arc[0]));
+            }
+            net_put(net, new_ones ? -1 : befores[2 * (move[0] - 1)], arc, excess, index);
+        }
+    }
+}
+
 static void net_move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule, int32_t index)
 {
     const pcl2_net_word *befores = gate + 6, *afters = befores + 2 * gate[0], *move = rule->moves + 1;
@@ -387,14 +404,8 @@ static void net_move_tokens(struct pcl2_net *net, const pcl2_net_word *gate, con
         }
     }
     net_run_all(net, rule->actions, index);
-    move = rule->moves + 1;
-    for (int32_t i = 0; i < rule->moves[0]; i++, move += 2 + move[1]) {
-        for (int32_t j = 0; j < move[1]; j++) {
-            const pcl2_net_word *arc = afters + 2 * move[2 + j];
-            const int32_t excess = arc[1] - net_weight_in(befores, gate[0], arc[0]);
-            net_put(net, move[0] == 0 ? -1 : befores[2 * (move[0] - 1)], arc, excess, index);
-        }
-    }
+    net_deposit(net, gate, rule, index, 0);
+    net_deposit(net, gate, rule, index, 1);
     for (int32_t i = 0; i < gate[0] + gate[1]; i++) {
         net->hold[befores[2 * i]] = PCL2_NET_NOT_HELD;
     }

@@ -72,10 +72,16 @@ fn deposit(
     indent: &str,
 ) {
     let (gate, moves) = (way.gate, &way.rule.moves);
-    for (from, to) in moves.iter().flat_map(|tokens| tokens.to.iter().map(|to| (tokens.from, to))) {
+    let made = |made: bool| moves.iter().filter(move |tokens| tokens.from.is_none() == made);
+    let ways = made(false).chain(made(true)).flat_map(|tokens| tokens.to.iter().map(|to| (tokens.from, to)));
+    for (from, to) in ways {
         let arc = &gate.after[*to as usize];
         let room = gates::weight(arc.weight).saturating_sub(gates::weight_in(&gate.before, arc.place)).max(0);
         let source = from.map_or(arc.place, |from| gate.before[from as usize].place);
+        if from.is_none() && gate.before.iter().any(|before| before.place == arc.place) {
+            // The hand had the token that was taken.
+            tokens::make(out, net, arc.place, indent);
+        }
         if net.layout.facts.puts_at_once(net.net, way.index, arc.place) {
             let targets = moves.iter().flat_map(|tokens| &tokens.to).filter(|other| *other == to);
             let once = targets.count() == 1;

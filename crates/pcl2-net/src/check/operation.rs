@@ -6,7 +6,7 @@ use pcl2_lang::ast::Name;
 use pcl2_lang::ast::net::Halt;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Item, PortDecl, TypeExpr};
-use pcl2_lang::net::{Drive, Level, Operation, WordId};
+use pcl2_lang::net::{Operation, WordId};
 use pcl2_lang::types::{Scalar, Value};
 
 /// The modes, in the order of their numbers.
@@ -154,23 +154,13 @@ fn stops(builder: &mut Builder<'_>, halts: &[Halt]) {
         let scalar = builder.net.words[word].scalar;
         values[word] = match halt.value {
             Some((number, span)) => builder.constant(number, span, scalar).map(Some),
-            None => fed(builder, WordId(word as u32)).then_some(None),
+            None => Some(None),
         };
     }
     let values = values.into_iter().enumerate().filter_map(|(i, value)| Some((WordId(i as u32), value?)));
     if let Some(operation) = &mut builder.net.operation {
         operation.stops = values.collect();
     }
-}
-
-/// Whether a net inside, which may go on, gives a word its value.
-fn fed(builder: &Builder<'_>, word: WordId) -> bool {
-    let drive = &builder.net.words[word.0 as usize].drive;
-    let driven = match drive {
-        Drive::Level(levels) => levels.iter().any(|level| matches!(level, Level::Part(..))),
-        Drive::Written => false,
-    };
-    driven || builder.net.parts.iter().any(|part| part.writes.iter().any(|(_, written)| *written == word))
 }
 
 /// The output of a STOP: each once, and none that the net fills itself.
