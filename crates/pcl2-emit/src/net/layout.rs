@@ -17,6 +17,9 @@ pub(crate) const STOOD: &str = "stood";
 /// What a net with modes keeps in ints.
 pub(crate) const MODE_COUNTERS: [&str; 3] = ["halted", "forced", "refused"];
 
+/// The sets of touched boxes that are not empty, as bits of a word: kept where there are several and a word has room.
+pub(crate) const MOVED: &str = "moved";
+
 /// The layout of a net.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NetLayout {
@@ -84,8 +87,8 @@ impl NetLayout {
 /// What stands behind the tag of a net in the names of its functions and tables, apart from functions of gates.
 const SUFFIXES: &[&str] = &[
     "act", "active", "after", "boxes", "calm", "commit", "drives", "duration", "empty", "enter", "excite", "gates",
-    "hands", "inputs", "leave", "levels", "net", "outputs", "pass", "places", "put", "scan", "table", "take", "vacant",
-    "wait", "words", "writes",
+    "hands", "inputs", "leave", "levels", "net", "outputs", "pass", "places", "put", "scan", "table", "take", "touch",
+    "vacant", "wait", "words", "writes",
 ];
 
 /// What stands behind the tag of a net in names of what is made of it.
@@ -287,11 +290,12 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add("ready", "uint32_t", sets(net.gates.len()));
     fields.add_if(facts.has_literals(), "open", "uint32_t", sets(net.gates.len()));
     fields.add("touched", "uint32_t", sets(boxes));
+    fields.add_if((33..=32 * 32).contains(&boxes), MOVED, "uint32_t", None);
     fields.add_if(waits, "waiting", "uint32_t", sets(boxes));
     fields.add_if(facts.shows_late(), "shown", "uint32_t", sets(boxes));
     fields.add("drives", "int32_t", Some(facts.levels.len()));
-    let counted = (0..boxes).any(|place| facts.counts_at_once(place));
-    fields.add_if(counted, "outputs", "uint32_t", sets(facts.levels.len()));
+    let follow = (0..boxes).any(|place| facts.outputs_follow(place));
+    fields.add_if(follow, "outputs", "uint32_t", sets(facts.levels.len()));
     fields.add_if(waits, "waits", "int32_t", None);
     fields.add("restless", "int32_t", None);
     fields.add("go", "int32_t", None);

@@ -190,7 +190,7 @@ fn generation(
 {INNER}pending |= edge;
 {INNER}if (pending && self->box[{name}] < {capacity}) {{
 {inner}self->box[{name}] += 1;
-{inner}pcl2_net_add(self->net.touched, {name});
+{inner}{tag}_touch(self, {name});
 {inner}{tag}_excite(self, {name});
 ",
         tag = net.tag()
