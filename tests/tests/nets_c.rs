@@ -1,6 +1,8 @@
 //! The C of nets: names that meet, functions that nobody calls, and what random nets do not have.
 
 use pcl2_tests::compilers::{Built, STRICT, check};
+use pcl2_tests::dice::Dice;
+use pcl2_tests::nets::{self, column};
 use pcl2_tests::{pcl2, run};
 use std::fmt::Write;
 use std::fs;
@@ -8,7 +10,7 @@ use std::path::Path;
 
 /// What stands behind the name of a net in the C of both forms.
 const BEHIND: &str = "act active after boxes calm check commit drives duration empty enter excite gates gates_1 hands init \
-                      inputs leave levels net outputs places put scan table take tune vacant wait words writes";
+                      inputs leave levels net outputs pass places put scan table take touch tune vacant wait words writes";
 
 fn write(folder: &Path, files: &[(&str, &str)]) {
     for (name, text) in files {
@@ -136,4 +138,81 @@ fn boxes_are_named_in_the_model_description() {
     let signals = model["signals"].as_array().unwrap();
     let tokens = signals.iter().find(|signal| signal["name"] == "two.box").unwrap();
     assert_eq!(tokens["elements"], serde_json::json!(["a", "b"]));
+}
+
+/// A pair of states for each input: the output is 1 exactly while the input is not 0.
+fn followers(name: &str, inputs: &[&str]) -> String {
+    let outputs: Vec<String> = (0..inputs.len()).map(|i| format!("int y{i}")).collect();
+    let ports: Vec<String> = inputs.iter().enumerate().map(|(i, ty)| format!("{ty} x{i}")).collect();
+    let mut text = format!("{} = {name} ( {} : )\n", outputs.join(", "), ports.join(", "));
+    for (i, ty) in inputs.iter().enumerate() {
+        let on = if *ty == "real" { format!("x{i}*x{i} > 0.") } else { format!("x{i}") };
+        let off = if *ty == "real" { format!("x{i}*x{i} <= 0.") } else { format!("NOT x{i}") };
+        let _ = writeln!(text, "STATE off{i} MARKED\nSTATE on{i} DRIVES y{i}");
+        let _ = writeln!(text, "GATE g{i} : off{i} -> on{i} IF {on}\nGATE h{i} : on{i} -> off{i} IF {off}");
+    }
+    text + "END\n"
+}
+
+/// Values for so many inputs, by scan: few change, and not all of those from or to 0.
+fn changes(inputs: usize, scans: usize) -> Vec<Vec<i32>> {
+    let mut dice = Dice(7);
+    let mut now = vec![0; inputs];
+    let mut all = Vec::new();
+    for _ in 0..scans {
+        for value in &mut now {
+            if dice.once_in(9) {
+                *value = [0, 0, 1, 2, -1, i32::MIN][dice.below(6)];
+            }
+        }
+        all.push(now.clone());
+    }
+    all
+}
+
+fn stimulus(names: &[String], values: &[Vec<i32>]) -> String {
+    let mut text = format!("k,{}\n", names.join(","));
+    for (k, row) in values.iter().enumerate() {
+        let row: Vec<String> = row.iter().map(i32::to_string).collect();
+        let _ = writeln!(text, "{k},{}", row.join(","));
+    }
+    text
+}
+
+fn assert_follows(output: &[f64], values: &[Vec<i32>], input: usize) {
+    let expected: Vec<f64> = values.iter().map(|row| f64::from(row[input] != 0)).collect();
+    assert_eq!(output, expected, "input {input}");
+}
+
+/// Inputs of a net that is the program are compared side by side, as far as they are ints in a row.
+#[test]
+fn changes_of_inputs_side_by_side_are_seen() {
+    let inputs = ["int", "int", "real", "int", "int", "int", "real", "int", "int", "int", "int", "int", "int", "int"];
+    let values = changes(inputs.len(), 400);
+    let names: Vec<String> = (0..inputs.len()).map(|i| format!("x{i}")).collect();
+    let text = followers("many", &inputs);
+    compile(&[("many.net", &text)]);
+    let trace = nets::traced(&[("many.net", &text)], &stimulus(&names, &values), &["--steps", "400"]);
+    for i in 0..inputs.len() {
+        assert_follows(column(&trace, &format!("y{i}")), &values, i);
+    }
+}
+
+/// Many instances of one net share the function that takes their inputs in, also in parts of a long section.
+#[test]
+fn instances_of_a_net_take_their_own_inputs() {
+    let values = changes(3, 200);
+    let mut program = "CONTROL\n1 x0 = msi ( : 0 )\n2 x1 = msi ( : 0 )\n3 x2 = msi ( : 0 )\n".to_owned();
+    for i in 0..70 {
+        let [a, b] = [i % 3, (i + 1 + i / 35) % 3];
+        let _ = writeln!(program, "{} a{i}, b{i} = pair ( x{a}, x{b} : )", 10 + 2 * i);
+    }
+    program.push_str("END\n");
+    let files = [("main.cfg", program.as_str()), ("pair.net", &followers("pair", &["int", "int"]))];
+    let names: Vec<String> = (0..3).map(|i| format!("x{i}.value")).collect();
+    let trace = nets::traced(&files, &stimulus(&names, &values), &["--steps", "200"]);
+    for i in 0..70 {
+        assert_follows(column(&trace, &format!("a{i}")), &values, i % 3);
+        assert_follows(column(&trace, &format!("b{i}")), &values, (i + 1 + i / 35) % 3);
+    }
 }

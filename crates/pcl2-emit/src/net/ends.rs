@@ -2,6 +2,7 @@
 
 use super::facts::waits;
 use super::fast::{awake, inner, member};
+use super::layout::MOVED;
 use super::{NetBody, firing, modes};
 use crate::expr::Scope;
 use crate::layout::WHOLE;
@@ -20,11 +21,10 @@ pub(super) fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let _ = writeln!(out, "    {}_commit(&self->{});", layout.tag, member(net, part));
     }
     if !net.net.boxes.is_empty() {
-        let sets = net.net.boxes.len().div_ceil(32);
+        touched_sets(out, net);
         let _ = write!(
             out,
-            "    for (int32_t set = 0; set < {sets}; set++) {{
-        uint32_t boxes = self->net.touched[set];
+            "        uint32_t boxes = self->net.touched[set];
         self->net.touched[set] = 0;
         while (boxes != 0) {{
             const int32_t place = 32 * set + pcl2_net_lowest(boxes);
@@ -65,6 +65,24 @@ pub(super) fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
         }
     }
     out.push_str("}\n\n");
+}
+
+/// Begins a loop over the sets of touched boxes.
+fn touched_sets(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    if !net.layout.keeps(MOVED) {
+        let sets = net.net.boxes.len().div_ceil(32);
+        let _ = writeln!(out, "    for (int32_t set = 0; set < {sets}; set++) {{");
+        return;
+    }
+    let _ = write!(
+        out,
+        "    uint32_t moved = self->net.{MOVED};
+    self->net.{MOVED} = 0;
+    while (moved != 0) {{
+        const int32_t set = pcl2_net_lowest(moved);
+        moved &= moved - 1;
+"
+    );
 }
 
 /// Boxes that wait begin to when a token comes; one that is empty waits no more. Tells whether there are any.

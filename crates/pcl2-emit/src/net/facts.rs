@@ -19,6 +19,8 @@ pub(crate) struct NetFacts {
     pub(crate) loops: bool,
     /// By level of the words that boxes drive: the word.
     pub(crate) levels: Vec<usize>,
+    /// By level: no statement of the net reads the word.
+    pub(crate) unread: Vec<bool>,
     /// By gate: the input that must be 1, or 0, so that it can fire.
     pub(crate) literals: Vec<Option<Literal>>,
     /// Inputs and the gates that wait for them, in order.
@@ -99,6 +101,7 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
         let mut ports = unit.blocks.iter().flat_map(|block| &block.ports).filter_map(Source::signal);
         ports.any(|signal| signal.0 as usize == held + word)
     };
+    facts.unread = facts.levels.iter().map(|word| !reads(*word)).collect();
     facts.late = facts.find_late(net);
     facts.ticking = timers.iter().any(|word| part || reads(*word));
     facts
@@ -239,6 +242,11 @@ impl NetFacts {
     /// Whether a box drives outputs and is not looked at when the phase ends: gates count for it.
     pub(crate) fn counts_at_once(&self, place: usize) -> bool {
         !self.driven[place].is_empty() && !self.late[place]
+    }
+
+    /// Whether a box counts at once for an output that follows when the phase ends.
+    pub(crate) fn outputs_follow(&self, place: usize) -> bool {
+        self.counts_at_once(place) && self.driven[place].iter().any(|level| !self.unread[*level])
     }
 
     /// Whether a box drives outputs and is looked at when the phase ends.

@@ -280,26 +280,32 @@ fn gate_phase(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>
 
 /// Writes how ABORT lines and gates are tried.
 fn tries(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>) {
-    let tag = net.tag();
     for (part, _, _) in net.parts() {
         abort(out, statics, net, part);
     }
+    try_gates(out, net);
+}
+
+/// Tries the gates that are ready when the phase begins.
+fn try_gates(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let sets = net.net.gates.len().div_ceil(gates::GATES);
-    if sets > 0 {
-        let open = if net.layout.keeps("open") { " & self->net.open[set]" } else { "" };
-        let _ = write!(
-            out,
-            "    uint32_t ready[{sets}];
-    for (int32_t set = 0; set < {sets}; set++) {{
-        ready[set] = self->net.ready[set]{open};
-    }}
-"
-        );
+    if sets == 0 {
+        return;
+    }
+    for set in 0..sets {
+        let open = if net.layout.keeps("open") { format!(" & self->net.open[{set}]") } else { String::new() };
+        let _ = writeln!(out, "    const uint32_t ready_{} = self->net.ready[{set}]{open};", set + 1);
     }
     let forced = if commands::fires(net) { ", 0" } else { "" };
-    for word in 0..sets {
-        let _ = writeln!(out, "    self->net.restless |= {tag}_gates_{}(self, ready[{word}]{forced});", word + 1);
+    out.push_str("    int32_t fired = 0;\n");
+    for word in 1..=sets {
+        let tag = net.tag();
+        let _ = writeln!(
+            out,
+            "    if (ready_{word} != 0) {{\n        fired |= {tag}_gates_{word}(self, ready_{word}{forced});\n    }}"
+        );
     }
+    out.push_str("    self->net.restless |= fired;\n");
 }
 
 fn abort(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, part: usize) {
@@ -315,7 +321,7 @@ fn abort(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, par
     let inner = "            ";
     tokens::take(out, net, place, &[], inner);
     let _ = writeln!(out, "{inner}{}_empty(&self->{});", part_tag(net, part), member(net, part));
-    let _ = writeln!(out, "{inner}self->net.taken[{name}] = 1;\n{inner}pcl2_net_add(self->net.touched, {name});");
+    let _ = writeln!(out, "{inner}self->net.taken[{name}] = 1;\n{inner}{}_touch(self, {name});", net.tag());
     for statement in &abort.actions {
         firing::run(out, statics, net, *statement, ("0", &[(place, Held::OnItsWay)]), inner);
     }

@@ -147,17 +147,26 @@ fn ready(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str
     }
 }
 
-/// A box that drives outputs counts among their drivers, or no more; the outputs follow when the phase ends.
+/// A box that drives outputs counts among their drivers, or no more; an output that a statement reads follows when the
+/// phase ends, any other at once.
 fn shows(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str, indent: &str) {
     let facts = &net.layout.facts;
     let driven = &facts.driven[place.0 as usize];
     if facts.counts_at_once(place.0 as usize) {
         for output in driven {
             let _ = writeln!(out, "{indent}self->net.drives[{output}] {change} 1;");
-            let _ = writeln!(out, "{indent}pcl2_net_add(self->net.outputs, {output});");
+            if facts.unread[*output] {
+                let word = net.word(facts.levels[*output], net.scope());
+                let _ = match change {
+                    "+=" => writeln!(out, "{indent}{word} = 1;"),
+                    _ => writeln!(out, "{indent}{word} = self->net.drives[{output}] > 0;"),
+                };
+            } else {
+                let _ = writeln!(out, "{indent}pcl2_net_add(self->net.outputs, {output});");
+            }
         }
     } else if !driven.is_empty() {
-        let _ = writeln!(out, "{indent}pcl2_net_add(self->net.touched, {});", net.place(place));
+        let _ = writeln!(out, "{indent}{}_touch(self, {});", net.tag(), net.place(place));
     }
 }
 

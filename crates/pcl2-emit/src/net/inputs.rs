@@ -16,7 +16,7 @@ use pcl2_lang::types::Type;
 use std::fmt::Write;
 
 /// So many ints side by side are compared in one go; fewer one by one.
-const RUN: usize = 4;
+const RUN: usize = 3;
 
 /// Whether a block of the program is a net whose inputs are compared where it is called.
 pub(crate) fn is_top(cx: &Context<'_>, unit: UnitId, inner: UnitId) -> bool {

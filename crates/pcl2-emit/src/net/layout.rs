@@ -20,6 +20,9 @@ pub(crate) const STOOD: &str = "stood";
 /// What a net with modes keeps in ints.
 pub(crate) const MODE_COUNTERS: [&str; 3] = ["halted", "forced", "refused"];
 
+/// The sets of touched boxes that are not empty, as bits of a word: kept where there are several and a word has room.
+pub(crate) const MOVED: &str = "moved";
+
 /// The layout of a net.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NetLayout {
@@ -126,6 +129,7 @@ const SUFFIXES: &[&str] = &[
     "swap",
     "table",
     "take",
+    "touch",
     "try",
     "vacant",
     "wait",
@@ -349,11 +353,12 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add("ready", "uint32_t", sets(net.gates.len()));
     fields.add_if(facts.has_literals(), "open", "uint32_t", sets(net.gates.len()));
     fields.add("touched", "uint32_t", sets(boxes));
+    fields.add_if((33..=32 * 32).contains(&boxes), MOVED, "uint32_t", None);
     fields.add_if(waits, "waiting", "uint32_t", sets(boxes));
     fields.add_if(facts.shows_late(), "shown", "uint32_t", sets(boxes));
     fields.add("drives", "int32_t", Some(facts.levels.len()));
-    let counted = (0..boxes).any(|place| facts.counts_at_once(place));
-    fields.add_if(counted, "outputs", "uint32_t", sets(facts.levels.len()));
+    let follow = (0..boxes).any(|place| facts.outputs_follow(place));
+    fields.add_if(follow, "outputs", "uint32_t", sets(facts.levels.len()));
     fields.add_if(waits, "waits", "int32_t", None);
     fields.add("restless", "int32_t", None);
     fields.add("go", "int32_t", None);

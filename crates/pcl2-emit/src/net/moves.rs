@@ -2,6 +2,7 @@
 
 use super::NetBody;
 use super::fast::{is_macro, member};
+use super::layout::MOVED;
 use std::fmt::Write;
 
 /// Whether no box that is looked up is the first one of a gate.
@@ -24,6 +25,9 @@ pub(super) fn functions(out: &mut String, net: &NetBody<'_, '_, '_>, users: &str
             change_ready(out, net, change);
         }
     }
+    if ["touch", "take", "put"].into_iter().any(used) {
+        touch(out, net);
+    }
     if used("take") {
         let _ = write!(
             out,
@@ -31,7 +35,7 @@ pub(super) fn functions(out: &mut String, net: &NetBody<'_, '_, '_>, users: &str
 static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
 {{
     self->net.taken[place] += tokens;
-    pcl2_net_add(self->net.touched, place);
+    {tag}_touch(self, place);
 }}
 
 "
@@ -69,6 +73,20 @@ static inline struct pcl2_net_writes {tag}_writes(struct {tag} *self, int32_t ou
     }
 }
 
+fn touch(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let tag = net.tag();
+    let _ = writeln!(
+        out,
+        "/* The end of the gate phase looks at a box. */\n\
+         static inline void {tag}_touch(struct {tag} *self, int32_t place)\n{{\n    \
+         pcl2_net_add(self->net.touched, place);"
+    );
+    if net.layout.keeps(MOVED) {
+        let _ = writeln!(out, "    self->net.{MOVED} |= UINT32_C(1) << (place >> 5);");
+    }
+    out.push_str("}\n\n");
+}
+
 fn change_ready(out: &mut String, net: &NetBody<'_, '_, '_>, change: &str) {
     if no_gates(net) {
         out.push_str("    (void)self;\n    (void)place;\n}\n\n");
@@ -102,7 +120,7 @@ static inline void {tag}_put(struct {tag} *self, int32_t place, int32_t tokens"
         };
     }
     out.push_str(if by { "    self->net.by[place] = gate;\n" } else { "" });
-    out.push_str("    pcl2_net_add(self->net.touched, place);\n}\n\n");
+    let _ = writeln!(out, "    {tag}_touch(self, place);\n}}\n");
 }
 
 /// Writes what the net around a macro calls.
@@ -152,7 +170,7 @@ static inline void {tag}_enter(struct {tag} *self)
 static inline void {tag}_leave(struct {tag} *self)
 {{
     self->net.taken[{exit}] = self->box[{exit}];
-    pcl2_net_add(self->net.touched, {exit});
+    {tag}_touch(self, {exit});
     self->net.go = 1;
     self->net.restless = 1;
 }}
@@ -174,7 +192,7 @@ static inline void {tag}_empty(struct {tag} *self)
 {{
     for (int32_t place = 0; place < {n}; place++) {{
         self->net.taken[place] = self->box[place];
-        pcl2_net_add(self->net.touched, place);
+        {tag}_touch(self, place);
     }}
 "
     );

@@ -206,7 +206,7 @@ fn generation(
     let _ = write!(
         out,
         "{inner}self->box[{name}] += 1;
-{inner}pcl2_net_add(self->net.touched, {name});
+{inner}{tag}_touch(self, {name});
 {inner}{tag}_excite(self, {name});
 ",
         tag = net.tag()
