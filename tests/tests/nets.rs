@@ -405,6 +405,81 @@ END
     assert_eq!(column(&trace, "outer.idle"), [0., 0., 0., 0., 0., 1., 1., 1.]);
 }
 
+/// A macro that is aborted while one inside it is, too, is empty after that.
+#[test]
+fn macros_are_aborted_together() {
+    let outer = "int out = outer ( int go, int stop : )
+STATE idle MARKED
+MACRO M : out = middle ( stop : )
+ABORT stop -> idle
+GATE g : idle -> M IF go
+END
+";
+    let middle = "int out = middle ( int stop : )
+ENTRY come
+STATE p DRIVES out
+MACRO I = inner ( : )
+ABORT stop -> p
+EXIT gone
+GATE g : come -> I
+END
+";
+    let inner = "= inner ( : )\nENTRY come\nEXIT gone\nGATE g : come -> gone\nEND\n";
+    let files = [("outer.net", outer), ("middle.net", middle), ("inner.net", inner)];
+    let trace = traced(&files, "k,go,stop\n0,1,0\n5,1,1\n6,1,0\n", &["--steps", "9"]);
+    assert_eq!(column(&trace, "outer.M"), [1., 1., 1., 1., 1., 0., 1., 1., 1.]);
+    assert_eq!(column(&trace, "out"), [0.; 9]);
+}
+
+/// A command by which a macro is aborted is cleared, so that the macro can be entered again.
+#[test]
+fn an_abort_clears_its_command() {
+    let outer = "= outer ( cell int stop = 0 : )
+MOMENTARY stop
+STATE idle MARKED
+MACRO M = inner ( : )
+ABORT stop -> idle
+GATE g : idle -> M
+END
+";
+    let inner = "= inner ( : )\nENTRY come\nEXIT gone\nGATE g : come -> gone IF 0\nEND\n";
+    let stimulus = "k,outer.stop\n0,0\n2,1\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], stimulus, &["--steps", "5"]);
+    assert_eq!(column(&trace, "outer.M"), [1., 1., 0., 1., 1.]);
+    assert_eq!(column(&trace, "outer.stop"), [0.; 5]);
+}
+
+/// A time that is bad does not end; it ends when it is good again and over.
+#[test]
+fn a_bad_time_does_not_end() {
+    let net = "int q, int r = bad ( real t : )
+TIME a t MARKED
+STATE b DRIVES q
+PROCESS p MARKED UNTIL 0 WITHIN t
+STATE c DRIVES r
+GATE g : a -> b
+GATE h : p -> c
+END
+";
+    let trace = traced(&[("bad.net", net)], "k,t\n0,nan\n3,0.5\n", &["--steps", "5", "--period", "0.5"]);
+    assert_eq!(column(&trace, "q"), [0., 0., 0., 1., 1.]);
+    assert_eq!(column(&trace, "r"), [0., 0., 0., 1., 1.]);
+}
+
+/// A token that waits takes the room that has come; what comes in the same scan waits after it.
+#[test]
+fn a_token_that_waits_goes_first() {
+    let net = "int q = make ( int x, int take : )
+GENERATE g SIZE 1 WHEN x DO q = q + 1
+GATE out : g -> IF take
+END
+";
+    let stimulus = "k,x,take\n0,1,0\n1,0,0\n2,1,0\n3,0,0\n4,0,1\n5,1,0\n6,1,1\n7,1,0\n";
+    let trace = traced(&[("make.net", net)], stimulus, &["--steps", "9"]);
+    assert_eq!(column(&trace, "make.g"), [1., 1., 1., 1., 0., 1., 0., 1., 1.]);
+    assert_eq!(column(&trace, "q"), [1., 1., 1., 1., 1., 2., 2., 3., 3.]);
+}
+
 /// Tokens leave a queue in its order, and carry their attributes along.
 #[test]
 fn queues_give_tokens_in_their_order() {

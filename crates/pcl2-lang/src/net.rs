@@ -329,6 +329,8 @@ pub struct Abort {
     pub condition: StatementId,
     /// Where the token goes.
     pub to: BoxId,
+    /// The commands that the condition reads.
+    pub clears: Vec<WordId>,
     /// What is run then.
     pub actions: Vec<StatementId>,
 }

@@ -12,7 +12,7 @@
  * levels  n, of each: word, n, boxes, n, (part, output)
  * actives n, of each: word, word of the time + 1, n, boxes
  * parts   n, of each: entry, exit, how far behind the net it stands, box of the macro + 1,
- *         abort: condition + 1, box, n, statements; n, (output, word)
+ *         abort: condition + 1, box, n, statements, n, words that it clears; n, (output, word)
  * operated  words, each + 1: of BLOCKED, of the mode, of the commands go, fire, put, take; n, of each word that has a
  *         value of its own while the net is stopped: word, its place among the attributes, whether it is what it was;
  *         the gates in the order of the file; by gate the number of its first permissive term */
@@ -20,7 +20,7 @@
 
 int64_t pcl2_net_nanoseconds(const pcl2_real *seconds)
 {
-    return pcl2_nanoseconds(*seconds);
+    return pcl2_net_time(*seconds);
 }
 
 /* The box phase. */
@@ -83,17 +83,12 @@ static void net_fresh(struct pcl2_net *net, const pcl2_net_word *box)
     net_load(net, box, box[2]);
 }
 
-/* On the rising edge of the condition a token; while there is no room one waits. */
+/* On the rising edge of the condition a token; while there is no room one waits, and a further one is lost. */
 static void net_generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *box, const pcl2_net_word *more)
 {
     const int32_t now = net_run(net, more[0], 0) != 0, edge = now && (net->phase[b] & 1) == 0;
-    int32_t waiting = (net->phase[b] & 2) != 0;
-    if (edge && waiting) {
-        pcl2_net_fault(net->status, PCL2_NET_LOST);
-        pcl2_net_count(net->lost);
-    }
-    waiting |= edge;
-    if (waiting && net->box[b] < box[2]) {
+    int32_t wanted = ((net->phase[b] & 2) != 0) + edge;
+    while (wanted > 0 && net->box[b] < box[2]) {
         net_fresh(net, box);
         net_store(net, box, box, net->box[b]);
         net->hold[b] = net->box[b] + 1;
@@ -102,9 +97,13 @@ static void net_generate(struct pcl2_net *net, int32_t b, const pcl2_net_word *b
             (void)net_run(net, more[1 + i], 0);
         }
         net->hold[b] = PCL2_NET_NOT_HELD;
-        waiting = 0;
+        wanted--;
     }
-    net->phase[b] = now | (waiting << 1);
+    if (wanted > 1) {
+        pcl2_net_fault(net->status, PCL2_NET_LOST);
+        pcl2_net_count(net->lost);
+    }
+    net->phase[b] = now | (wanted > 0 ? 2 : 0);
 }
 
 static void net_box_phase(struct pcl2_net *net)
@@ -432,12 +431,18 @@ static int32_t net_permitted(struct pcl2_net *net, const pcl2_net_word *gate, co
     return 1;
 }
 
+/* Clears the commands of a list. */
+static void net_clear(struct pcl2_net *net, const pcl2_net_word *commands)
+{
+    for (int32_t i = 1; i <= commands[0]; i++) {
+        *(int32_t *)net_word_at(net, commands[i]) = 0;
+    }
+}
+
 /* Fires a gate by a rule. */
 static void net_fire(struct pcl2_net *net, const pcl2_net_word *gate, const struct net_rule *rule, int32_t index)
 {
-    for (int32_t i = 1; i <= rule->clears[0]; i++) {
-        *(int32_t *)net_word_at(net, rule->clears[i]) = 0;
-    }
+    net_clear(net, rule->clears);
     net_move_tokens(net, gate, rule, index);
 }
 
@@ -480,8 +485,8 @@ static void net_empty(struct pcl2_net *net)
 /* Empties a macro whose ABORT holds: the token goes to the box that is named. */
 static void net_abort_part(struct pcl2_net *net, int32_t part)
 {
-    const pcl2_net_word *record = net_part_record(net, part);
-    if (record[3] == 0 || record[4] == 0 || net->box[record[3] - 1] == 0 || !net_run(net, record[4] - 1, 0)) {
+    const pcl2_net_word *record = net_part_record(net, part), *clears = record + 7 + record[6];
+    if (record[3] == 0 || record[4] == 0 || net_left(net, record[3] - 1) <= 0 || !net_run(net, record[4] - 1, 0)) {
         return;
     }
     const int32_t macro = record[3] - 1;
@@ -489,6 +494,7 @@ static void net_abort_part(struct pcl2_net *net, int32_t part)
     if (!net_room(net, arc[0], 1)) {
         return;
     }
+    net_clear(net, clears);
     net_empty(net_inside(net, part));
     net_load(net, net_box_record(net, macro), 0);
     net->taken[macro] = 1;
@@ -685,6 +691,7 @@ static void net_part_writes(struct pcl2_net *net, int32_t part)
 {
     const struct pcl2_net *inner = net_part_of(net, part);
     const pcl2_net_word *writes = net_part_record(net, part) + 6;
+    writes += writes[0] + 1;
     writes += writes[0] + 1;
     for (int32_t i = 0; i < writes[0]; i++) {
         const int32_t output = writes[1 + 2 * i], word = writes[2 + 2 * i];

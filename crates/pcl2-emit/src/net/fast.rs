@@ -313,12 +313,15 @@ fn abort(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, par
         return;
     };
     let name = net.place(place);
-    let _ = writeln!(out, "    /* ABORT of {} */\n    if (self->box[{name}] != 0) {{", net.net.parts[part].name);
+    let _ = writeln!(out, "    /* ABORT of {} */\n    if ({} > 0) {{", net.net.parts[part].name, net.left(place));
     let condition = tokens::condition(out, statics, net, abort.condition, &[], "        ");
     let mut tests = vec![condition];
     tests.extend(gates::box_room(net, abort.to, 1));
     let _ = writeln!(out, "        if ({}) {{", tests.join(" && "));
     let inner = "            ";
+    for word in &abort.clears {
+        let _ = writeln!(out, "{inner}{} = 0;", net.word(word.0 as usize, net.scope()));
+    }
     tokens::take(out, net, place, &[], inner);
     let _ = writeln!(out, "{inner}{}_empty(&self->{});", part_tag(net, part), member(net, part));
     let _ = writeln!(out, "{inner}self->net.taken[{name}] = 1;\n{inner}{}_touch(self, {name});", net.tag());

@@ -90,7 +90,7 @@ pub(super) fn time(
     let (_, value) = value(out, statics, &call, indent);
     let signal = call.block().outputs[0];
     match call.body().signal(signal).ty.scalar {
-        Scalar::Real => format!("pcl2_nanoseconds({value})"),
+        Scalar::Real => format!("pcl2_net_time({value})"),
         Scalar::Int => format!("pcl2_net_seconds({value})"),
     }
 }

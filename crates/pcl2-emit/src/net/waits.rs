@@ -191,13 +191,8 @@ fn generation(
         out,
         "{INNER}const int32_t now = {condition};
 {INNER}const int32_t edge = now && (self->net.phase[{name}] & 1) == 0;
-{INNER}int32_t pending = (self->net.phase[{name}] & 2) != 0;
-{INNER}if (edge && pending) {{
-{inner}pcl2_net_fault(&self->status, PCL2_NET_LOST);
-{inner}pcl2_net_count(&self->net.lost);
-{INNER}}}
-{INNER}pending |= edge;
-{INNER}if (pending && self->box[{name}] < {capacity}) {{
+{INNER}int32_t wanted = ((self->net.phase[{name}] & 2) != 0) + edge;
+{INNER}while (wanted > 0 && self->box[{name}] < {capacity}) {{
 "
     );
     let id = net.id(place);
@@ -215,6 +210,16 @@ fn generation(
     for statement in &generation.enter {
         run(out, statics, net, *statement, ("0", &hands), inner);
     }
-    let _ = writeln!(out, "{inner}pending = 0;\n{inner}happened = 1;\n{INNER}}}");
-    let _ = writeln!(out, "{INNER}self->net.phase[{name}] = now | (pending << 1);");
+    let _ = write!(
+        out,
+        "{inner}wanted--;
+{inner}happened = 1;
+{INNER}}}
+{INNER}if (wanted > 1) {{
+{inner}pcl2_net_fault(&self->status, PCL2_NET_LOST);
+{inner}pcl2_net_count(&self->net.lost);
+{INNER}}}
+{INNER}self->net.phase[{name}] = now | (wanted > 0 ? 2 : 0);
+"
+    );
 }

@@ -314,8 +314,10 @@ impl Builder<'_> {
             Some(abort) => {
                 self.push([abort.condition.0 as i32 + 1, abort.to.0 as i32]);
                 self.statements(&abort.actions);
+                self.push([count(abort.clears.len())]);
+                self.table.words.extend(abort.clears.iter().map(|word| word.0 as i32));
             }
-            None => self.push([0, 0, 0]),
+            None => self.push([0, 0, 0, 0]),
         }
         self.push([count(part.writes.len())]);
         self.table.words.extend(part.writes.iter().flat_map(|(output, word)| [*output as i32, word.0 as i32]));

@@ -41,6 +41,23 @@ pub(super) fn gates(builder: &mut Builder<'_>, outline: &mut Outline) {
     (builder.net.gates, builder.net.numbered) = (gates, numbered);
 }
 
+/// The commands that a condition reads.
+pub(super) fn commands(builder: &Builder<'_>, condition: &Statement) -> Vec<WordId> {
+    let mut commands = Vec::new();
+    for item in condition.inputs() {
+        let Operand::Name(name) = &item.value else {
+            continue;
+        };
+        if let Some((Thing::Word(word), _)) = builder.names.get(&name.symbol).copied() {
+            let command = builder.net.momentary.iter().any(|(_, command)| *command == word);
+            if command && !commands.contains(&word) {
+                commands.push(word);
+            }
+        }
+    }
+    commands
+}
+
 struct Reader<'b, 'a> {
     builder: &'b mut Builder<'a>,
 }
@@ -251,31 +268,21 @@ impl Reader<'_, '_> {
 
     /// The boxes whose tokens a condition looks at, and the commands that it reads.
     fn reads(&mut self, gate: &Gate, condition: &Statement) -> (Vec<BoxId>, Vec<WordId>) {
-        let (mut looks, mut clears) = (Vec::new(), Vec::new());
+        let mut looks = Vec::new();
         for item in condition.inputs() {
-            match &item.value {
-                Operand::Member(member) => {
-                    let Some((Thing::Box(place), _)) = self.builder.names.get(&member.0.symbol).copied() else {
-                        continue;
-                    };
-                    let before = gate.before.iter().any(|arc| arc.place == place);
-                    let read = gate.reads.iter().any(|tested| tested.part.is_none() && tested.place == place);
-                    if (before || read) && !looks.contains(&place) {
-                        looks.push(place);
-                    }
-                }
-                Operand::Name(name) => {
-                    if let Some((Thing::Word(word), _)) = self.builder.names.get(&name.symbol).copied() {
-                        let command = self.builder.net.momentary.iter().any(|(_, command)| *command == word);
-                        if command && !clears.contains(&word) {
-                            clears.push(word);
-                        }
-                    }
-                }
-                Operand::Empty | Operand::Element(_) | Operand::Number(_) | Operand::Text(_) => {}
+            let Operand::Member(member) = &item.value else {
+                continue;
+            };
+            let Some((Thing::Box(place), _)) = self.builder.names.get(&member.0.symbol).copied() else {
+                continue;
+            };
+            let before = gate.before.iter().any(|arc| arc.place == place);
+            let read = gate.reads.iter().any(|tested| tested.part.is_none() && tested.place == place);
+            if (before || read) && !looks.contains(&place) {
+                looks.push(place);
             }
         }
-        (looks, clears)
+        (looks, commands(self.builder, condition))
     }
 
     /// Without THEN: one before and one after, and the token moves; else each box after the gate gets the token of the

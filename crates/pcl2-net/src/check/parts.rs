@@ -1,5 +1,6 @@
 //! Pass 4: nets inside the net.
 
+use super::gates::commands;
 use super::outline::{Outline, PartLines};
 use super::{Builder, Thing};
 use pcl2_lang::ast::{Name, Output};
@@ -29,10 +30,11 @@ fn part(builder: &mut Builder<'_>, id: PartId, lines: PartLines) {
         connect(builder, id, inner, &targets, &mut part);
     }
     if let Some(lines) = abort {
+        let clears = commands(builder, &lines.condition);
         let condition = builder.statement(lines.condition);
         let actions = lines.actions.into_iter().map(|statement| builder.action(statement)).collect();
         if let Some(to) = builder.own_box(lines.to) {
-            part.abort = Some(Abort { condition, to, actions });
+            part.abort = Some(Abort { condition, to, clears, actions });
         }
     }
     builder.net.parts.push(part);
