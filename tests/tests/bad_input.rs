@@ -154,7 +154,7 @@ fn a_net_in_pnml_is_refused_with_what_to_do() {
     fs::write(work.path().join("project/pcl2.toml"), "[controller]\nsource = \"n.pnml\"\n").unwrap();
     fs::write(work.path().join("project/n.pnml"), text).unwrap();
     for path in ["n.pnml", "empty.pnml", "n.cfg", "project"] {
-        for command in ["check", "build -o out", "run", "fmt", "params", "graph -o out", "net report -o out"] {
+        for command in ["check", "build -o out", "run", "fmt", "params", "net report -o out"] {
             let args: Vec<&str> = command.split(' ').chain([path]).collect();
             let (status, said) = bounded(&args, work.path());
             assert_eq!(status, Some(1), "{args:?}: {said}");
@@ -164,7 +164,10 @@ fn a_net_in_pnml_is_refused_with_what_to_do() {
                 "{args:?}: {said}"
             );
             assert_eq!(said.matches("error").count(), 1, "{args:?}: {said}");
-            assert!(said.contains("is read by `pcl2 net` alone: analyze, matrix, fire, export"), "{args:?}: {said}");
+            assert!(
+                said.contains("is for `pcl2 graph` and `pcl2 net`: analyze, matrix, fire, export"),
+                "{args:?}: {said}"
+            );
             assert!(path != "project" || said.contains("pcl2.toml:2:10"), "{said}");
         }
     }

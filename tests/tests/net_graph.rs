@@ -1,6 +1,8 @@
 //! `pcl2 graph` of nets: every box, gate and arc is there, nothing lies on anything else, the same net gives the same
 //! picture.
 
+use pcl2_net::pnml;
+use pcl2_net::pt::Arc;
 use pcl2_tests::compilers::{check, folder};
 use pcl2_tests::dice::Dice;
 use pcl2_tests::fences::{examples, fences};
@@ -235,6 +237,32 @@ fn the_nets_of_the_papers_and_of_the_docs_are_drawn_without_faults() {
     assert!(drawn >= 8, "only {drawn} nets");
 }
 
+/// A net in PNML is drawn whole: each place and transition once, with the arcs that the file has.
+#[test]
+fn a_net_in_pnml_is_drawn() {
+    for name in ["FMS-PT-00002", "SwimmingPool-PT-01"] {
+        let file = root().join(format!("tests/nets/{name}.pnml"));
+        let drawn = net_picture(&check(pcl2().arg("graph").arg(&file).args(["-o", "-"])));
+        none(&faults(name, &drawn));
+        none(&loose(name, &drawn));
+        let net = pnml::read(&fs::read_to_string(&file).unwrap()).unwrap();
+        assert_eq!(drawn.symbols.len(), net.places.len() + net.transitions.len(), "{name}");
+        let arc = |gate: &str, kind: &'static str, arc: &Arc| {
+            let place = &net.places[arc.place.0 as usize].name;
+            let weight = if arc.weight == 1 { String::new() } else { format!("{}*", arc.weight) };
+            (gate.to_owned(), kind, format!("{weight}{place}"))
+        };
+        let mut expected = Vec::new();
+        for gate in &net.transitions {
+            let lists = [("take", &gate.takes), ("put", &gate.puts), ("read", &gate.reads)];
+            expected.extend(lists.iter().flat_map(|(kind, list)| list.iter().map(|of| arc(&gate.name, kind, of))));
+        }
+        let mut found = arcs(&drawn);
+        [&mut expected, &mut found].into_iter().for_each(|arcs| arcs.sort());
+        assert_eq!(found, expected, "{name}");
+    }
+}
+
 const INNER: &str = "\
 int lamp = inner ( int go : real wait = 1. )
 ENTRY come
@@ -351,6 +379,22 @@ fn how_drawing_ends() {
     let (code, said) = graph("bad.net", "bad.svg");
     assert!(code == Some(1) && said.contains("did you mean `rest`?"), "{said}");
     assert!(!folder.path().join("bad.svg").exists());
+    let (code, said) = graph("inner.net", "inner.net");
+    assert!(code == Some(1) && said.contains("expected another file than the source"), "{said}");
+    let net = |tokens: u64| {
+        let place = format!("<place id='p'><initialMarking><text>{tokens}</text></initialMarking></place>");
+        let kind = "http://www.pnml.org/version-2009/grammar/ptnet";
+        format!("<pnml><net id='n' type='{kind}'><page id='g'>{place}</page></net></pnml>")
+    };
+    fs::write(folder.path().join("n.pnml"), net(7)).unwrap();
+    assert_eq!(graph("n.pnml", "n.svg"), (Some(0), String::new()));
+    fs::write(folder.path().join("n.pnml"), net(1 << 40)).unwrap();
+    let (code, said) = graph("n.pnml", "m.svg");
+    assert!(code == Some(1) && said.contains("expected numbers of tokens up to 4294967295, found"), "{said}");
+    fs::write(folder.path().join("n.pnml"), "<pnml>").unwrap();
+    let (code, said) = graph("n.pnml", "m.svg");
+    assert!(code == Some(1) && said.contains("n.pnml:1"), "{said}");
+    assert!(!folder.path().join("m.svg").exists());
 }
 
 /// The pictures in `docs` are what the commands of the README and of the page on nets draw.

@@ -311,3 +311,39 @@ fn large_nets_stay_within_bounds() {
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&found["complete"], &found["markings"]), (&false.into(), &100.into()));
 }
+
+/// Parts come when they like and wait on a belt; what is done goes into a bin. Whether enough wait is asked by READ and
+/// INHIBIT, which no run that goes on without end may depend on.
+#[test]
+fn a_net_that_fills_scan_by_scan_is_told() {
+    let net = "int q, int full = belt ( int come, int go : )
+GENERATE part SIZE 1 WHEN come
+CAPACITY belt
+CAPACITY bin
+STATE idle MARKED
+TIME busy 1. DRIVES q
+STATE few MARKED
+STATE lots DRIVES full
+GATE in   : part -> belt
+GATE take : belt, idle -> busy  IF go
+GATE done : busy -> idle, bin
+GATE more : few -> lots         READ 3*belt
+GATE less : lots -> few         INHIBIT 3*belt
+END
+";
+    let work = tempfile::tempdir().unwrap();
+    let file = work.path().join("belt.net");
+    fs::write(&file, net).unwrap();
+    let found = analyzed_file(&file, &["--limit", "2000"]);
+    assert_eq!((&found["bounded"], &found["complete"]), (&Value::Bool(false), &Value::Bool(false)));
+    assert_eq!(found["unbounded_places"], serde_json::json!(["belt", "bin"]));
+    // A bin that is asked for room is never said to be unbounded: few parts may be all that ever come into it.
+    fs::write(
+        &file,
+        net.replace("done : busy", "done : busy, few").replace("idle, bin\n", "idle, bin, few INHIBIT 9*bin\n"),
+    )
+    .unwrap();
+    assert_eq!(analyzed_file(&file, &["--limit", "2000"])["unbounded_places"], Value::Null);
+    let text = run(pcl2().args(["net", "analyze", "--limit", "2000"]).arg(&file));
+    assert!(String::from_utf8_lossy(&text.stdout).contains("\n  unbounded places: belt, and perhaps others\n"));
+}

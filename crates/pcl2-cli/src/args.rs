@@ -193,7 +193,7 @@ pub(crate) struct FmtArgs {
 /// `pcl2 graph`
 #[derive(Args, Debug)]
 pub(crate) struct GraphArgs {
-    /// A .cfg or .net file, or a folder with pcl2.toml
+    /// A .cfg, .net or .pnml file, or a folder with pcl2.toml
     pub(crate) path: PathBuf,
     /// The picture (`-`: to standard output)
     #[arg(short, long, value_name = "SVG")]

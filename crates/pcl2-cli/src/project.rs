@@ -267,7 +267,8 @@ impl Loader {
         }
         let message = format!("expected a .cfg or .net file, found `{}`, which is XML", path.display());
         let report = Diagnostic::new(codes::UNREADABLE, named.unwrap_or_else(|| start_of(file)), message);
-        self.diagnostics.push(report.help("a net in PNML is read by `pcl2 net` alone: analyze, matrix, fire, export"));
+        self.diagnostics
+            .push(report.help("a net in PNML is for `pcl2 graph` and `pcl2 net`: analyze, matrix, fire, export"));
         None
     }
 

@@ -108,6 +108,7 @@ impl Writer<'_, '_> {
             }
             Place::Param(_, param) => param,
             Place::Cell(id) => self.cx.program.main().cells[id.0 as usize].port,
+            Place::Inside(_) => self.cx.program.decl(decl).outputs.len() as u32 - 1,
             Place::Memory(field) => field,
             Place::Image(_) => 0,
         };
@@ -142,7 +143,7 @@ impl Writer<'_, '_> {
 
 fn array_of(place: Place) -> usize {
     match place {
-        Place::Signal(_) => 0,
+        Place::Signal(_) | Place::Inside(_) => 0,
         Place::Image(_) => 1,
         Place::Param(..) => 2,
         Place::Cell(_) => 3,
@@ -210,7 +211,7 @@ fn retained(seen: &Seen<'_>, decl: Option<&Decl>) -> bool {
     let name = match seen.place {
         Place::Memory(field) => decl.memory.get(field as usize).map(|field| &field.name),
         Place::Signal(_) => seen.tail.and_then(|tail| output_with(decl, tail)),
-        Place::Param(..) | Place::Cell(_) | Place::Image(_) => None,
+        Place::Param(..) | Place::Cell(_) | Place::Image(_) | Place::Inside(_) => None,
     };
     name.is_some_and(|name| decl.retain.contains(name))
 }
@@ -330,6 +331,10 @@ fn place(out: &mut String, cx: &Context<'_>, seen: &Seen<'_>) {
                 _ => write!(out, "out.{}", border.outputs[index].0),
             };
         }
+        Place::Inside(id) => {
+            let scope = enter(out, cx, seen.path);
+            expr::signal_base(out, cx, scope, id);
+        }
         Place::Memory(field) => memory(out, cx, seen.path, field as usize),
     }
 }
@@ -351,18 +356,24 @@ fn parameter(out: &mut String, cx: &Context<'_>, id: BlockId, param: usize) {
     }
 }
 
-fn memory(out: &mut String, cx: &Context<'_>, path: &[BlockId], field: usize) {
+/// The instances from the program's own unit inwards.
+fn enter(out: &mut String, cx: &Context<'_>, path: &[BlockId]) -> Scope<'static> {
     let mut scope = Scope::MEMBERS;
-    let Some((last, outer)) = path.split_last() else {
-        return;
-    };
-    for id in outer {
+    for id in path {
         expr::block(out, cx, scope, *id);
         out.push('.');
         if let Some(unit) = cx.program.unit(scope.unit).block(*id).unit {
             scope = Scope { unit, root: "", part: WHOLE };
         }
     }
+    scope
+}
+
+fn memory(out: &mut String, cx: &Context<'_>, path: &[BlockId], field: usize) {
+    let Some((last, outer)) = path.split_last() else {
+        return;
+    };
+    let scope = enter(out, cx, outer);
     let code = cx.code(cx.program.unit(scope.unit).block(*last).decl);
     match cx.shape_of(scope.unit, *last).memory.get(field).copied().flatten() {
         Some(index) => {
@@ -410,7 +421,7 @@ fn default<'c>(cx: &'c Context<'_>, place: Place) -> Option<&'c Value> {
     match place {
         Place::Param(block, param) => known_value(&main.block(block).params[param as usize]),
         Place::Cell(cell) => Some(&main.cells[cell.0 as usize].initial),
-        Place::Signal(_) | Place::Image(_) | Place::Memory(_) => None,
+        Place::Signal(_) | Place::Inside(_) | Place::Image(_) | Place::Memory(_) => None,
     }
 }
 

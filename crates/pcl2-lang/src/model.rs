@@ -35,6 +35,9 @@ pub enum Place {
     Cell(CellId),
     /// A word of the process image.
     Image(ImageId),
+    /// The tokens of the boxes of a net inside a net or a composite; the path leads there from the outside in
+    /// ([`Point::path`]).
+    Inside(SignalId),
     /// A memory field of a block; the path leads through composites from the outside in ([`Point::path`]).
     Memory(u32),
 }
@@ -46,7 +49,7 @@ pub struct Point {
     pub name: String,
     /// What it is.
     pub place: Place,
-    /// For memory: the blocks from the program's own unit inwards; else empty.
+    /// For memory and what is inside: the blocks from the program's own unit inwards; else empty.
     pub path: Vec<BlockId>,
     /// Its type; times count as one int64.
     pub ty: Type,
@@ -62,7 +65,7 @@ pub struct Point {
     pub elements: Vec<String>,
 }
 
-/// All points of a program, in a fixed order: signals, image, parameters, cells, memory.
+/// All points of a program, in a fixed order: signals, boxes of nets inside, image, parameters, cells, memory.
 pub fn points(program: &Program) -> Vec<Point> {
     let mut points = Vec::new();
     visit(program, &mut |seen| {
@@ -117,6 +120,7 @@ impl Point {
 /// Shows all points in the order of [`points`], for programs with too many to keep.
 pub fn visit(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
     signals(program, see);
+    inside(program, UnitId(0), &mut Vec::new(), &mut String::new(), see);
     images(program, see);
     parameters(program, see);
     cells(program, see);
@@ -191,6 +195,62 @@ fn signals(program: &Program, see: &mut dyn FnMut(Seen<'_>)) {
             declared: written.map(|(_, block)| (block.decl, block.sizes.as_slice())),
         });
     }
+}
+
+/// The boxes of nets in nets and composites. Those of a net of the program itself are an output, and so a signal.
+fn inside(
+    program: &Program,
+    unit: UnitId,
+    path: &mut Vec<BlockId>,
+    prefix: &mut String,
+    see: &mut dyn FnMut(Seen<'_>),
+) {
+    let length = prefix.len();
+    for (b, block) in program.unit(unit).blocks.iter().enumerate() {
+        let Some(inner) = block.unit else {
+            continue;
+        };
+        path.push(BlockId(b as u32));
+        prefix.extend([block.name.as_str(), "."]);
+        if path.len() > 1 {
+            boxes(program, block, inner, (path, prefix), see);
+        }
+        inside(program, inner, path, prefix, see);
+        prefix.truncate(length);
+        path.pop();
+    }
+}
+
+/// The boxes of a net, if they are any.
+fn boxes(
+    program: &Program,
+    block: &Block,
+    inner: UnitId,
+    (path, prefix): (&[BlockId], &mut String),
+    see: &mut dyn FnMut(Seen<'_>),
+) {
+    let decl = program.decl(block.decl);
+    let Some(output) = decl.outputs.iter().position(|output| output.name == BOX_OUTPUT && decl.net.is_some()) else {
+        return;
+    };
+    let unit = program.unit(inner);
+    let Some(id) = unit.outputs.get(output).copied().filter(|id| unit.signal(*id).ty.elements() > 0) else {
+        return;
+    };
+    let length = prefix.len();
+    prefix.push_str(BOX_OUTPUT);
+    see(Seen {
+        name: prefix,
+        place: Place::Inside(id),
+        path,
+        ty: unit.signal(id).ty,
+        time: false,
+        access: Access::Signal,
+        tail: Some(&decl.outputs[output].tail),
+        declared: Some((block.decl, &block.sizes)),
+        elements: &decl.outputs[output].elements,
+    });
+    prefix.truncate(length);
 }
 
 /// Which declared output an expanded output index belongs to.

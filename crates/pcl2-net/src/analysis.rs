@@ -45,6 +45,8 @@ pub struct Analysis {
     pub bounded: Option<bool>,
     /// The places without.
     pub unbounded: Option<Vec<PlaceId>>,
+    /// Those that are proved to be, although there may be more.
+    pub proved_unbounded: Vec<PlaceId>,
     /// Whether a dead marking is reachable.
     pub deadlock: Option<bool>,
     /// A way to it: the transitions of each step. The shortest, if all reachable markings up to it were looked at.
@@ -75,6 +77,7 @@ pub fn analyze(net: &PtNet, semantics: Semantics, limit: Limit, progress: &mut d
     }
     let bounded = bounded(&space, cover.as_ref(), &bounds);
     let path = space.path.clone().or_else(|| alone(&dead));
+    let dead_transitions = dead_transitions(&space, cover.as_ref(), semantics);
     // What a dead marking says holds although not all markings are known.
     let (live, reversible) = match &path {
         Some(path) => (Some(vec![false; net.transitions.len()]), Some(path.is_empty())),
@@ -84,12 +87,13 @@ pub fn analyze(net: &PtNet, semantics: Semantics, limit: Limit, progress: &mut d
         t_invariants: invariants::t_invariants(net, MOST_ROWS),
         conflicts: conflicts::conflicts(net, known, MOST_PAIRS),
         unbounded: unbounded(bounded, cover.as_ref()),
+        proved_unbounded: cover.filter(|_| bounded == Some(false)).map_or_else(Vec::new, |cover| cover.unbounded),
         bounded,
         deadlock: is_deadlock(&space, &dead),
         path,
         live,
         reversible,
-        dead_transitions: dead_transitions(&space, cover.as_ref(), semantics),
+        dead_transitions,
         p_invariants,
         siphons,
         bounds,
@@ -131,15 +135,20 @@ fn explore(
     (explorer.explore(semantics, limit.at_most(most), progress), known)
 }
 
-/// The coverability tree. Scans reach no more than single transitions do if nothing is only read.
+/// The coverability tree. Scans reach no more than single transitions do if nothing is only read: a place that is bounded
+/// so is bounded. That one is not is proved by a run that can be repeated.
 fn cover(net: &PtNet, semantics: Semantics, nodes: usize) -> Option<Cover> {
-    match semantics {
-        Semantics::Interleaving => Some(space::cover(net, nodes)),
-        Semantics::Step => {
-            let cover = space::cover(&without_tests(net), nodes);
-            (cover.complete && cover.unbounded.is_empty()).then_some(cover)
-        }
+    if semantics == Semantics::Interleaving {
+        return Some(space::cover(net, nodes));
     }
+    let most = space::cover(&without_tests(net), nodes);
+    if most.complete && most.unbounded.is_empty() {
+        return Some(most);
+    }
+    let all: Vec<PlaceId> = (0..net.places.len() as u32).map(PlaceId).collect();
+    let unbounded = space::growing(net, if most.complete { &most.unbounded } else { &all }, nodes);
+    let complete = most.complete && most.unbounded == unbounded;
+    (!unbounded.is_empty()).then_some(Cover { complete, unbounded, ..most })
 }
 
 fn without_tests(net: &PtNet) -> PtNet {

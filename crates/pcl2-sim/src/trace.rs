@@ -7,11 +7,11 @@ use pcl2_lang::model::Place;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// All variables in order of their first writer, each element a column.
+/// All variables in order of their first writer, then the boxes of nets inside, each element a column.
 pub fn all_signals(names: &Names) -> Vec<Element> {
     let mut columns = Vec::new();
     for (i, point) in names.points.iter().enumerate() {
-        if matches!(point.place, Place::Signal(_)) {
+        if matches!(point.place, Place::Signal(_) | Place::Inside(_)) {
             columns.extend((0..point.ty.elements() as u32).map(|element| Element { point: i as u32, element }));
         }
     }

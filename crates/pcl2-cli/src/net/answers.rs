@@ -142,7 +142,7 @@ impl<'a> Report<'a> {
     }
 
     fn is_unbounded(&self, place: usize) -> bool {
-        self.analysis.unbounded.as_ref().is_some_and(|places| places.contains(&PlaceId(place as u32)))
+        self.analysis.proved_unbounded.contains(&PlaceId(place as u32))
     }
 
     fn conflict(&self, conflict: &Conflict) -> String {
@@ -168,9 +168,10 @@ impl<'a> Report<'a> {
 
     fn behaviour(&self, text: &mut Text) {
         let found = self.analysis;
-        let names = found.unbounded.as_ref().map(|places| self.places(places));
+        let mut names = self.places(&found.proved_unbounded);
+        names.extend(found.unbounded.is_none().then_some("and perhaps others"));
         match found.bounded {
-            Some(false) => text.names("unbounded places", names),
+            Some(false) => text.names("unbounded places", Some(names)),
             bounded => text.answer("bounded", bounded),
         }
         text.answer("deadlock", found.deadlock);

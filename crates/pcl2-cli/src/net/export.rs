@@ -49,7 +49,7 @@ pub(crate) fn export(args: &ExportArgs) -> Outcome {
 }
 
 /// Writes a text that was made of a source to a file or to standard output.
-pub(super) fn write(source: &Path, path: &Path, text: &str) -> Outcome {
+pub(crate) fn write(source: &Path, path: &Path, text: &str) -> Outcome {
     if let (Ok(source), Ok(file)) = (source.canonicalize(), path.canonicalize())
         && source == file
     {

@@ -1,7 +1,6 @@
 //! `pcl2 net flatten`
 
-use super::export::write;
-use super::{NetPath, load_project, refuse};
+use super::{NetPath, load_project, refuse, write};
 use crate::console;
 use crate::nets::is_net;
 use crate::outcome::Outcome;

@@ -10,6 +10,8 @@ mod flatten;
 mod matrix;
 mod report;
 
+pub(crate) use export::write;
+
 use crate::args::CommonArgs;
 use crate::console;
 use crate::nets::is_net;
@@ -106,7 +108,8 @@ fn load_project(path: &Path, blocks: &[PathBuf]) -> Result<Project, Outcome> {
     project::load_checked(path, &common).map(|(project, _)| project)
 }
 
-fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {
+/// Reads a place/transition net.
+pub(crate) fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {
     let shown = path.display();
     let bytes = read_regular(path, MAX_PNML).map_err(|why| {
         console::error(&format!("expected a readable file, found `{shown}`: {why}"));
@@ -120,7 +123,7 @@ fn load_pnml(path: &Path) -> Result<PtNet, Outcome> {
 }
 
 /// Says why nothing is done with a file.
-fn refuse(path: &Path, why: &str) -> Outcome {
+pub(crate) fn refuse(path: &Path, why: &str) -> Outcome {
     console::error(&format!("{}: {why}", path.display()));
     Outcome::Errors
 }

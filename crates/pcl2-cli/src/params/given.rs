@@ -104,7 +104,7 @@ fn source(names: &Names<'_>, element: Element) -> Option<Number> {
     let value = match names.point(element).place {
         Place::Param(block, param) => model::value(&program.main().block(block).params[param as usize])?,
         Place::Cell(cell) => &program.main().cells[cell.0 as usize].initial,
-        Place::Signal(_) | Place::Image(_) | Place::Memory(_) => return None,
+        Place::Signal(_) | Place::Image(_) | Place::Inside(_) | Place::Memory(_) => return None,
     };
     element_of(value, element.element as usize, program)
 }
@@ -140,7 +140,7 @@ fn refused(names: &Names<'_>, changes: &[Change]) -> Vec<String> {
                 put(&mut program.units[0].blocks[block.0 as usize].params[param as usize], change);
                 blocks.push(block);
             }
-            Place::Cell(_) | Place::Signal(_) | Place::Image(_) | Place::Memory(_) => {
+            Place::Cell(_) | Place::Signal(_) | Place::Image(_) | Place::Inside(_) | Place::Memory(_) => {
                 let event = Event { scan: 0, element: change.element, value: change.now };
                 complaints.extend(cell_refusal(names, &event).map(|refusal| refusal.to_string()));
             }

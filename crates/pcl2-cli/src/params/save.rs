@@ -102,7 +102,7 @@ fn plan(names: &Names<'_>, changes: &[Change], tree: &Tree, symbols: &Symbols, t
             Place::Param(block, param) => {
                 blocks.entry(block).or_default().entry(param).or_default().push(change);
             }
-            Place::Cell(_) | Place::Signal(_) | Place::Image(_) | Place::Memory(_) => {
+            Place::Cell(_) | Place::Signal(_) | Place::Image(_) | Place::Inside(_) | Place::Memory(_) => {
                 plan.left.push((change.element, "an operator cell has no literal".to_owned()));
             }
         }

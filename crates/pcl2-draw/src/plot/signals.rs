@@ -46,7 +46,7 @@ pub fn signals<'p>(program: &Program, points: impl IntoIterator<Item = (&'p Poin
         let role = match point.place {
             Place::Signal(id) => role(&loops, &Source::Signal(id)),
             Place::Cell(id) => role(&loops, &Source::Cell(id)),
-            Place::Param(..) | Place::Image(_) | Place::Memory(_) => Role::None,
+            Place::Param(..) | Place::Image(_) | Place::Inside(_) | Place::Memory(_) => Role::None,
         };
         let whole = point.ty.scalar == Scalar::Int && !point.time;
         let family = (!point.ty.is_scalar()).then(|| point.name.clone());

@@ -4,6 +4,7 @@ mod components;
 mod cover;
 mod depend;
 mod game;
+mod grow;
 mod guards;
 mod home;
 mod interleaving;
@@ -20,6 +21,7 @@ mod walk;
 mod words;
 
 pub use cover::{Cover, cover};
+pub use grow::growing;
 
 use crate::pt::{PtNet, TransitionId};
 use components::Bottoms;

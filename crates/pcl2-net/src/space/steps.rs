@@ -24,24 +24,22 @@ pub(super) struct Steps<'a> {
 
 /// A scan's gate phase.
 #[derive(Clone, Debug, Default)]
-struct Phase {
+pub(super) struct Phase {
     /// By place: tokens at its start.
-    start: Vec<u64>,
+    pub(super) start: Vec<u64>,
     /// By place: tokens that were not taken.
-    left: Vec<u64>,
+    pub(super) left: Vec<u64>,
     /// By place: how much it grew.
     filled: Vec<u128>,
     /// By gate: whether it fired.
     gates: Vec<bool>,
     /// What fired: where it stands among the enabled transitions.
-    fired: Vec<usize>,
+    pub(super) fired: Vec<usize>,
 }
 
 impl<'a> Steps<'a> {
     /// Packs the rules.
     pub(super) fn new(rules: &'a Rules, layout: &'a Layout, bounds: &[Option<u64>]) -> Steps<'a> {
-        let gates = rules.list.iter().map(|rule| rule.gate + 1).max().unwrap_or(0);
-        let phase = Phase { gates: vec![false; gates], filled: vec![0; rules.places], ..Phase::default() };
         Steps {
             rules,
             layout,
@@ -50,30 +48,8 @@ impl<'a> Steps<'a> {
             headroom: headroom(rules, layout, bounds, u64::saturating_add),
             blocked: Vec::new(),
             enabled: Vec::new(),
-            phase,
+            phase: Phase::of(rules, &[]),
         }
-    }
-
-    /// Fires what can fire from one of the enabled transitions on, free ones too.
-    fn advance(&mut self, first: usize) {
-        for (at, transition) in self.enabled.iter().enumerate().skip(first) {
-            if self.phase.can_fire(self.rules, *transition) {
-                self.phase.fire(self.rules, *transition);
-                self.phase.fired.push(at);
-            }
-        }
-    }
-
-    /// Goes back to the last free transition that fired, and does without it.
-    fn retreat(&mut self) -> Option<usize> {
-        while let Some(at) = self.phase.fired.pop() {
-            let transition = self.enabled[at];
-            self.phase.take_back(self.rules, transition);
-            if self.rules.list[transition as usize].free {
-                return Some(at + 1);
-            }
-        }
-        None
     }
 
     /// The field that a step overflows, if it does that.
@@ -109,7 +85,7 @@ impl Moves for Steps<'_> {
         let (mut key, mut fired, mut steps) = (K::zeros(self.layout.key), Vec::new(), 0);
         let mut first = Some(0);
         while let Some(at) = first {
-            self.advance(at);
+            self.phase.advance(self.rules, &self.enabled, at);
             fired.clear();
             fired.extend(self.phase.fired.iter().map(|at| self.enabled[*at]));
             if !fired.is_empty() {
@@ -121,13 +97,42 @@ impl Moves for Steps<'_> {
                 to(key.words(), &fired, 0)?;
                 steps += 1;
             }
-            first = self.retreat();
+            first = self.phase.retreat(self.rules, &self.enabled);
         }
         Ok(steps)
     }
 }
 
 impl Phase {
+    /// The start of a phase, from a marking.
+    pub(super) fn of(rules: &Rules, marking: &[u64]) -> Phase {
+        let gates = rules.list.iter().map(|rule| rule.gate + 1).max().unwrap_or(0);
+        let (start, left) = (marking.to_vec(), marking.to_vec());
+        Phase { start, left, filled: vec![0; rules.places], gates: vec![false; gates], fired: Vec::new() }
+    }
+
+    /// Fires what can fire from one of the enabled transitions on, free ones too.
+    pub(super) fn advance(&mut self, rules: &Rules, enabled: &[u32], first: usize) {
+        for (at, transition) in enabled.iter().enumerate().skip(first) {
+            if self.can_fire(rules, *transition) {
+                self.fire(rules, *transition);
+                self.fired.push(at);
+            }
+        }
+    }
+
+    /// Goes back to the last free transition that fired, and does without it.
+    pub(super) fn retreat(&mut self, rules: &Rules, enabled: &[u32]) -> Option<usize> {
+        while let Some(at) = self.fired.pop() {
+            let transition = enabled[at];
+            self.take_back(rules, transition);
+            if rules.list[transition as usize].free {
+                return Some(at + 1);
+            }
+        }
+        None
+    }
+
     fn start(&mut self, layout: &Layout, words: &[u64]) {
         self.start.clear();
         self.start.extend(layout.fields.iter().map(|field| field.get(words)));
@@ -140,15 +145,17 @@ impl Phase {
     /// Whether a transition that is enabled at the start still is.
     fn can_fire(&self, rules: &Rules, transition: u32) -> bool {
         let rule = &rules.list[transition as usize];
-        !self.gates[rule.gate]
-            && rule.takes.iter().all(|(place, weight)| self.left[*place] >= *weight)
-            && rule
-                .room
-                .iter()
-                .all(|(place, most)| u128::from(self.start[*place]) + self.filled[*place] <= u128::from(*most))
+        !self.is_closed(rule) && rule.takes.iter().all(|(place, weight)| self.left[*place] >= *weight)
     }
 
-    fn fire(&mut self, rules: &Rules, transition: u32) {
+    /// Whether another one of its gate has fired, or there is no room.
+    pub(super) fn is_closed(&self, rule: &Rule) -> bool {
+        let is_full =
+            |(place, most): &(usize, u64)| u128::from(self.start[*place]) + self.filled[*place] > u128::from(*most);
+        self.gates[rule.gate] || rule.room.iter().any(is_full)
+    }
+
+    pub(super) fn fire(&mut self, rules: &Rules, transition: u32) {
         let rule = &rules.list[transition as usize];
         self.gates[rule.gate] = true;
         rule.takes.iter().for_each(|(place, weight)| self.left[*place] -= weight);

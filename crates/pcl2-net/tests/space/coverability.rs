@@ -2,8 +2,9 @@
 
 use crate::nets::{Dice, Flavour, random};
 use crate::plain;
+use pcl2_net::analysis::analyze;
 use pcl2_net::pt::{Arc, Place, PlaceId, PtNet, Transition};
-use pcl2_net::space::{Semantics, cover};
+use pcl2_net::space::{Limit, Semantics, cover, growing};
 use std::collections::BTreeSet;
 
 /// The plain search must find more tokens than `MANY` in each unbounded place, and no more than `FEW` in each other one:
@@ -103,4 +104,86 @@ fn an_inhibitor_on_an_unbounded_place_ends_without_an_answer() {
     let found = cover(&net, 1000);
     assert!(!found.complete);
     assert!(found.unbounded.is_empty());
+}
+
+/// A net with all that nets have, and places without a capacity.
+fn open(dice: &mut Dice) -> PtNet {
+    let mut net = random(dice, Flavour::All);
+    for place in &mut net.places {
+        place.capacity = place.capacity.filter(|_| dice.roll(3) == 0);
+    }
+    net
+}
+
+/// The most tokens of a place in the markings that scans reach with at most so many in each place; `None`: too many.
+fn most_by_scans(net: &PtNet, place: usize, end: u64) -> Option<u64> {
+    let (mut seen, mut open) = (BTreeSet::from([plain::initial(net)]), vec![plain::initial(net)]);
+    let mut most = 0;
+    while let Some(marking) = open.pop() {
+        for (_, next) in plain::moves(net, &marking, Semantics::Step) {
+            most = most.max(next[place]);
+            if most > MANY {
+                return Some(most);
+            }
+            if next.iter().all(|tokens| *tokens <= end) && seen.insert(next.clone()) {
+                open.push(next);
+            }
+        }
+        if seen.len() > 1_000 {
+            return None;
+        }
+    }
+    Some(most)
+}
+
+/// A place that is proved to be unbounded scan by scan fills in a plain search; in a bounded net none is. Of the nets with
+/// many markings most have a proof.
+#[test]
+fn places_that_grow_scan_by_scan_fill_in_a_plain_search() {
+    let (mut dice, mut bounded, mut proved, mut many, mut places) = (Dice(7), 0, 0, 0, 0);
+    for number in 0..250 {
+        let net = open(&mut dice);
+        let all: Vec<PlaceId> = (0..net.places.len() as u32).map(PlaceId).collect();
+        let found = growing(&net, &all, 500);
+        if plain::explore(&net, Semantics::Step, 300).is_some() {
+            assert!(found.is_empty(), "net {number}: {found:?} of {net:?}");
+            bounded += 1;
+            continue;
+        }
+        many += 1;
+        proved += usize::from(!found.is_empty());
+        for place in found {
+            let Some(most) = most_by_scans(&net, place.0 as usize, 40) else { continue };
+            assert!(most > MANY, "net {number}, place {place:?}: {most} of {net:?}");
+            places += 1;
+        }
+    }
+    assert!(bounded > 40 && places > 100, "{bounded} bounded nets, {places} places");
+    assert!(proved * 10 > many * 9, "{proved} of {many} nets with many markings");
+}
+
+/// What holds one token for each that comes is bounded by scans, not by single transitions; what waits for few tokens where
+/// many come is not known, and is not said to be unbounded.
+#[test]
+fn what_must_fire_and_what_is_inhibited_counts() {
+    let arc = |place: u32, weight: u64| Arc { place: PlaceId(place), weight };
+    let place = |name: &str| Place { name: name.to_owned(), ..Place::default() };
+    let come = Transition { name: "come".to_owned(), puts: vec![arc(0, 1)], free: true, ..Transition::default() };
+    let go = Transition { name: "go".to_owned(), takes: vec![arc(0, 1)], gate: 1, ..Transition::default() };
+    let transitions = vec![come.clone(), go];
+    let net = PtNet { name: "belt".to_owned(), places: vec![place("belt")], transitions };
+    let analyzed = |net: &PtNet, semantics| analyze(net, semantics, Limit::markings(1_000), &mut |_| {});
+    assert_eq!(analyzed(&net, Semantics::Interleaving).unbounded, Some(vec![PlaceId(0)]));
+    assert_eq!(analyzed(&net, Semantics::Step).bounded, Some(true));
+    let few = Transition {
+        name: "few".to_owned(),
+        puts: vec![arc(1, 1)],
+        inhibits: vec![arc(0, 2)],
+        gate: 1,
+        ..Transition::default()
+    };
+    let transitions = vec![Transition { free: false, ..come }, few];
+    let net = PtNet { name: "few".to_owned(), places: vec![place("p"), place("q")], transitions };
+    let found = analyzed(&net, Semantics::Step);
+    assert_eq!((found.bounded, found.unbounded, found.proved_unbounded), (Some(false), None, vec![PlaceId(0)]));
 }

@@ -12,7 +12,7 @@ use crate::health::Health;
 use crate::names::{Element, Names};
 use crate::number::Number;
 use pcl2_lang::model::{Place, Point};
-use pcl2_lang::program::{DeclId, Program, SectionKind, UnitId};
+use pcl2_lang::program::{BlockId, DeclId, Program, SectionKind, UnitId};
 use pcl2_lang::types::{Real, Scalar, Value, Width};
 use pcl2_lang::verify::Verified;
 use place::{Body, Fill, NOWHERE, Node, Store};
@@ -191,16 +191,22 @@ impl<'a> Machine<'a> {
             Place::Cell(id) => self.cells[id.0 as usize],
             Place::Image(id) => self.images[id.0 as usize],
             Place::Param(block, param) => self.body.nodes[block.0 as usize].params[param as usize],
+            Place::Inside(id) => {
+                let body = self.inside(&point.path).and_then(|node| node.inner.as_ref());
+                body.and_then(|body| body.signals.get(id.0 as usize).copied()).unwrap_or(NOWHERE)
+            }
             Place::Memory(field) => {
-                let mut body = Some(&self.body);
-                let mut found: Option<&Node> = None;
-                for block in &point.path {
-                    found = body.and_then(|body| body.nodes.get(block.0 as usize));
-                    body = found.and_then(|node| node.inner.as_ref());
-                }
-                found.and_then(|node| node.memory.get(field as usize).copied()).unwrap_or(NOWHERE)
+                let node = self.inside(&point.path);
+                node.and_then(|node| node.memory.get(field as usize).copied()).unwrap_or(NOWHERE)
             }
         }
+    }
+
+    /// The instance at the end of a path.
+    fn inside(&self, path: &[BlockId]) -> Option<&Node> {
+        let (first, rest) = path.split_first()?;
+        let first = self.body.nodes.get(first.0 as usize)?;
+        rest.iter().try_fold(first, |node, block| node.inner.as_ref()?.nodes.get(block.0 as usize))
     }
 }
 

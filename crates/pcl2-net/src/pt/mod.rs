@@ -1,5 +1,9 @@
 //! A place/transition net: what the analysis works on, wherever the net was written.
 
+mod declared;
+
+pub use declared::declared;
+
 /// The largest number of tokens and the largest weight that is counted with.
 pub const MOST: u64 = (1 << 62) - 1;
 
