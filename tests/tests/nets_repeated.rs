@@ -76,11 +76,13 @@ fn repeated_lines_do_what_written_out_ones_do() {
     let program = PROGRAM.replace("idle[3]", "idle_3").replace("[1]", "_1").replace("[3]", "_3");
     let plain = played(&out, &LAMP.replace("[1]", ""), &program);
     let repeated = played(LAMPS, LAMP, PROGRAM);
-    let index = |name: &str| {
-        ["1", "2", "3"].iter().fold(name.to_owned(), |name, i| match name.starts_with("N.") {
-            true => name.replace(&format!("_{i}"), &format!("[{i}]")),
-            false => name,
-        })
+    let index = |name: &str| match name.strip_prefix("N.") {
+        Some(name) => {
+            let indexed =
+                ["1", "2", "3"].iter().fold(name.to_owned(), |n, i| n.replace(&format!("_{i}"), &format!("[{i}]")));
+            format!("N.{}", if indexed.ends_with(".off") { indexed + "[1]" } else { indexed })
+        }
+        None => name.to_owned(),
     };
     let plain: Trace = plain.into_iter().map(|(name, values)| (index(&name), values)).collect();
     assert_eq!(repeated, plain);

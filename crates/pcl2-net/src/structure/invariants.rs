@@ -83,6 +83,14 @@ struct Row {
     support: FixedBitSet,
 }
 
+impl Row {
+    /// Whether its support is within a set. Its ends tell of most rows that it is not.
+    fn is_within(&self, set: &FixedBitSet) -> bool {
+        let ends = [self.weights.first(), self.weights.last()];
+        ends.into_iter().flatten().all(|(row, _)| set.contains(*row as usize)) && self.support.is_subset(set)
+    }
+}
+
 /// The non-negative solutions y of y A = 0 that have minimal support, for a matrix A given by its rows.
 ///
 /// After each column the rows are the extreme rays of the cone of the columns so far. A positive and a negative row are
@@ -173,7 +181,7 @@ fn are_neighbours(rows: &[Row], a: usize, b: usize, eliminated: usize, budget: &
     let mut compared = 0;
     let third = rows.iter().enumerate().any(|(i, row)| {
         compared += 1;
-        i != a && i != b && row.support.is_subset(&both)
+        i != a && i != b && row.is_within(&both)
     });
     budget.spend(compared * words)?;
     Some(!third)
