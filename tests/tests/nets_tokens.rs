@@ -77,3 +77,54 @@ END
     assert_eq!(column(&trace, "sent"), [0., 5., 5., 5.]);
     assert_eq!(column(&trace, "told"), [0., 1., 1., 1.]);
 }
+
+/// A macro's token is what its exit has, once it is there.
+#[test]
+fn a_macro_shows_the_token_that_comes_out() {
+    let outer = "int v, int w = outer ( int go : )
+CLASS c ( int a = 1 )
+STATE s OF c MARKED
+OPERATION o OF c DO w = o.a
+MACRO M = inner ( : )
+GATE in : s -> M
+GATE out : M -> o IF M.a > 5 AND go
+DO v = M.a
+END
+";
+    let inner = "= inner ( : )
+CLASS c ( int a = 1 )
+ENTRY come OF c
+EXIT gone OF c
+GATE way : come -> gone
+DO come.a = 10
+END
+";
+    let stimulus = "k,go\n0,1\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], stimulus, &["--steps", "5"]);
+    assert_eq!(column(&trace, "v"), [0., 0., 10., 10., 10.]);
+    assert_eq!(column(&trace, "w"), [0., 0., 0., 10., 10.]);
+}
+
+/// No token enters a macro while anything beside the exit is marked, not even through a gate that empties the exit.
+#[test]
+fn a_macro_is_not_entered_again_before_it_is_empty() {
+    let outer = "= outer ( int go : )
+STATE s MARKED
+MACRO M = inner ( go : )
+GATE in : s -> M
+GATE again : M -> M
+END
+";
+    let inner = "= inner ( int go : )
+ENTRY come
+STATE side
+EXIT gone
+GATE way : come -> gone, side
+GATE over : side -> IF go
+END
+";
+    let stimulus = "k,go\n0,0\n4,1\n5,0\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], stimulus, &["--steps", "8"]);
+    assert_eq!(column(&trace, "outer.M.gone"), [0., 1., 1., 1., 1., 0., 1., 1.]);
+    assert_eq!(column(&trace, "outer.M.side"), [0., 1., 1., 1., 0., 0., 1., 1.]);
+}

@@ -129,20 +129,8 @@ static void net_box_phase(struct pcl2_net *net)
 
 /* The gate phase. */
 
-static const pcl2_net_word *net_part_record(const struct pcl2_net *net, int32_t part)
-{
-    const pcl2_net_word *parts = net->table + net->table[PCL2_NET_PARTS];
-    return net->table + parts[1 + part];
-}
-
 /* A net inside, to look at. */
 static const struct pcl2_net *net_part_of(const struct pcl2_net *net, int32_t part)
-{
-    return net + net_part_record(net, part)[2];
-}
-
-/* A net inside, to change. */
-static struct pcl2_net *net_inside(struct pcl2_net *net, int32_t part)
 {
     return net + net_part_record(net, part)[2];
 }
@@ -177,12 +165,13 @@ static int32_t net_weight_in(const pcl2_net_word *arcs, int32_t n, int32_t b)
     return 0;
 }
 
-/* Whether a macro's net is empty, so that a token may enter. */
-static int32_t net_vacant(const struct pcl2_net *net, int32_t part)
+/* Whether a macro's net is empty, so that a token may enter; `leaves`: the one in the exit is about to go. */
+static int32_t net_vacant(const struct pcl2_net *net, int32_t part, int32_t leaves)
 {
     const struct pcl2_net *inner = net_part_of(net, part);
+    const int32_t exit = net_part_record(net, part)[1];
     for (int32_t b = 0; b < inner->table[PCL2_NET_N_BOXES]; b++) {
-        if (inner->box[b] != 0 || inner->filled[b] != 0) {
+        if ((inner->box[b] != 0 && !(leaves && b == exit)) || inner->filled[b] != 0) {
             return 0;
         }
     }
@@ -193,11 +182,8 @@ static int32_t net_vacant(const struct pcl2_net *net, int32_t part)
 static int32_t net_room(const struct pcl2_net *net, int32_t b, int32_t more)
 {
     const pcl2_net_word *box = net_box_record(net, b);
-    if (more <= 0 || box[2] == 0) {
-        return 1;
-    }
-    const int32_t fits = net->box[b] + net->used[b] + more <= box[2];
-    return fits && (box[0] != PCL2_NET_MACRO || net_vacant(net, box[8]));
+    const int32_t fits = more <= 0 || box[2] == 0 || net->box[b] + net->used[b] + more <= box[2];
+    return fits && (box[0] != PCL2_NET_MACRO || net_vacant(net, box[8], more <= 0));
 }
 
 /* Whether a tested box has so many tokens. */
@@ -281,7 +267,7 @@ static int32_t net_satisfied(struct pcl2_net *net, const struct net_rule *rule, 
             at--;
             continue;
         }
-        net_load(net, net_box_record(net, b), place);
+        net_see(net, b, place);
         at++;
         if (at < n) {
             net->hold[rule->looks[at + 1]] = PCL2_NET_NOT_HELD;
@@ -322,12 +308,7 @@ static void net_take(struct pcl2_net *net, const pcl2_net_word *arc)
         struct pcl2_net *part = net_inside(net, box[8]);
         const int32_t exit = net_part_record(net, box[8])[1];
         part->taken[exit] = part->box[exit];
-        net_load(part, net_box_record(part, exit), 0);
-        for (int32_t i = 0; box[1] != 0 && i < net_class_of(net, box)[0]; i++) {
-            const int32_t real = net_class_of(net, box)[i + 1];
-            const void *from = net_hand_at(part, net_box_record(part, exit)[7] + i);
-            memcpy(net_hand_at(net, box[7] + i), from, real ? sizeof(pcl2_real) : sizeof(int32_t));
-        }
+        net_see(net, arc[0], 0);
         net->taken[arc[0]] += 1;
         net->hold[arc[0]] = PCL2_NET_ON_ITS_WAY;
         return;
@@ -358,11 +339,7 @@ static void net_put(struct pcl2_net *net, int32_t from, const pcl2_net_word *arc
         struct pcl2_net *part = net_inside(net, box[8]);
         const int32_t entry = net_part_record(net, box[8])[0];
         const pcl2_net_word *inner = net_box_record(part, entry);
-        for (int32_t i = 0; box[1] != 0 && i < net_class_of(net, box)[0]; i++) {
-            const int32_t real = net_class_of(net, box)[i + 1];
-            const void *hand = net_hand_at(net, source[7] + i);
-            memcpy(net_hand_at(part, inner[7] + i), hand, real ? sizeof(pcl2_real) : sizeof(int32_t));
-        }
+        net_hand_over(net, source, part, inner);
         net_store(part, inner, inner, 0);
         part->filled[entry] += 1;
         part->used[entry] += 1;
@@ -496,7 +473,7 @@ static void net_abort_part(struct pcl2_net *net, int32_t part)
     }
     net_clear(net, clears);
     net_empty(net_inside(net, part));
-    net_load(net, net_box_record(net, macro), 0);
+    net_see(net, macro, 0);
     net->taken[macro] = 1;
     net->hold[macro] = PCL2_NET_ON_ITS_WAY;
     net_run_all(net, record + 6, 0);

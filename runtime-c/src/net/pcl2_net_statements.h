@@ -44,7 +44,11 @@ static void net_lend(struct pcl2_net *net, int32_t script)
         if (net->hold[b] == PCL2_NET_NOT_HELD) {
             const pcl2_net_word *box = net_box_record(net, b);
             const int32_t first = net_next_token(net, b, -1);
-            net_load(net, box, first < 0 ? box[2] : first);
+            if (first < 0) {
+                net_load(net, box, box[2]);
+            } else {
+                net_see(net, b, first);
+            }
             net->hold[b] = first < 0 ? PCL2_NET_NOT_HELD : PCL2_NET_LENT - first;
         }
     }
@@ -55,8 +59,7 @@ static void net_give_back(struct pcl2_net *net, int32_t b)
 {
     const int32_t hold = net->hold[b];
     if (hold > 0 || hold <= PCL2_NET_LENT) {
-        const pcl2_net_word *box = net_box_record(net, b);
-        net_store(net, box, box, hold > 0 ? hold - 1 : PCL2_NET_LENT - hold);
+        net_return(net, b, hold > 0 ? hold - 1 : PCL2_NET_LENT - hold);
     }
 }
 

@@ -18,6 +18,11 @@ static const pcl2_net_word *net_box_record(const struct pcl2_net *net, int32_t b
     return net_record(net, PCL2_NET_BOXES, b);
 }
 
+static const pcl2_net_word *net_part_record(const struct pcl2_net *net, int32_t part)
+{
+    return net_record(net, PCL2_NET_PARTS, 1 + part);
+}
+
 static void *net_word_at(const struct pcl2_net *net, int32_t word)
 {
     return net->base + net->words[word];
@@ -82,6 +87,63 @@ static void net_store(struct pcl2_net *net, const pcl2_net_word *from, const pcl
             *to_reals++ = *(const pcl2_real *)hand;
         }
     }
+}
+
+/* A net inside. */
+static struct pcl2_net *net_inside(struct pcl2_net *net, int32_t part)
+{
+    return net + net_part_record(net, part)[2];
+}
+
+/* What a token carries goes from the hand of a box of one net into that of a box of another, of the same class. */
+static void net_hand_over(struct pcl2_net *from, const pcl2_net_word *source, struct pcl2_net *to,
+                          const pcl2_net_word *target)
+{
+    const pcl2_net_word *class = net_class_of(from, source);
+    for (int32_t i = 0; class != NULL && i < class[0]; i++) {
+        const size_t size = class[i + 1] ? sizeof(pcl2_real) : sizeof(int32_t);
+        memcpy(net_hand_at(to, target[7] + i), net_hand_at(from, source[7] + i), size);
+    }
+}
+
+/* Where the token of a box is: itself, or of a macro whose exit is marked, that; then `b` is the exit. */
+static struct pcl2_net *net_holder(struct pcl2_net *net, int32_t *b)
+{
+    const pcl2_net_word *box = net_box_record(net, *b);
+    if (box[0] != PCL2_NET_MACRO) {
+        return net;
+    }
+    struct pcl2_net *inner = net_inside(net, box[8]);
+    const int32_t exit = net_part_record(net, box[8])[1];
+    if (inner->box[exit] == 0) {
+        return net;
+    }
+    *b = exit;
+    return inner;
+}
+
+/* The token of a place gets into hand. */
+static void net_see(struct pcl2_net *net, int32_t b, int32_t place)
+{
+    int32_t at = b;
+    struct pcl2_net *holder = net_holder(net, &at);
+    const pcl2_net_word *box = net_box_record(holder, at);
+    net_load(holder, box, place);
+    if (holder != net) {
+        net_hand_over(holder, box, net, net_box_record(net, b));
+    }
+}
+
+/* The token in hand gets back to its place. */
+static void net_return(struct pcl2_net *net, int32_t b, int32_t place)
+{
+    int32_t at = b;
+    struct pcl2_net *holder = net_holder(net, &at);
+    const pcl2_net_word *box = net_box_record(holder, at);
+    if (holder != net) {
+        net_hand_over(net, net_box_record(net, b), holder, box);
+    }
+    net_store(holder, box, box, place);
 }
 
 /* The tokens that can still be taken. */

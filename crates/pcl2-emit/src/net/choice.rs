@@ -64,7 +64,7 @@ fn rule(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, way:
     let sole = |id: &BoxId| net.is_single(*id) && way.gate.before.iter().any(|arc| arc.place == *id);
     if chosen.iter().all(sole) {
         for id in chosen {
-            let _ = writeln!(out, "{INNER}{} = {}[0];", net.hand(*id), net.tokens(*id));
+            let _ = writeln!(out, "{INNER}{} = {};", net.hand(*id), net.sole_token(*id));
         }
         let text = tokens::condition(out, statics, net, condition, way.hands, INNER);
         let _ = writeln!(out, "{INNER}if ({text}) {{");
@@ -102,7 +102,7 @@ fn choose(
     let (hand, all, left) = (net.hand(*id), net.tokens(*id), net.left(*id));
     let inner = format!("{indent}    ");
     if net.is_single(*id) {
-        let _ = writeln!(out, "{indent}if ({left} > 0) {{\n{inner}{hand} = {all}[0];");
+        let _ = writeln!(out, "{indent}if ({left} > 0) {{\n{inner}{hand} = {};", net.sole_token(*id));
         choose(out, statics, net, way, rest, &inner);
         let _ = writeln!(out, "{indent}}}");
         return;

@@ -214,6 +214,11 @@ pub(super) fn room(net: &NetBody<'_, '_, '_>, gate: &Gate, rule: &Rule) -> Vec<S
 /// What must hold so that a box can take so many tokens more.
 pub(super) fn box_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<String> {
     let (name, place) = (net.place(id), net.net.place(id));
+    if let (Kind::Macro(part), true) = (&place.kind, more <= 0) {
+        // The token in the exit goes, and nothing else may be marked.
+        let part = part.0 as usize;
+        return vec![format!("{}_leaves(&self->{})", fast::part_tag(net, part), fast::member(net, part))];
+    }
     let Some(capacity) = place.capacity.filter(|_| more > 0) else {
         return Vec::new();
     };

@@ -63,6 +63,8 @@ pub(crate) struct NetLayout {
 pub(crate) struct MacroMoves {
     /// They ask whether it is vacant.
     pub(crate) asked: bool,
+    /// They ask whether it is vacant but for its exit.
+    pub(crate) looped: bool,
     /// They put a token into it.
     pub(crate) entered: bool,
     /// They take its token.
@@ -78,6 +80,7 @@ impl MacroMoves {
             self.left |= taken;
             self.entered |= put;
             self.asked |= put && !taken;
+            self.looped |= put && taken;
         }
         let mut aborts = outer.parts.iter().filter_map(|part| part.abort.as_ref());
         let put = command(outer, Command::Put).is_some();
@@ -116,6 +119,7 @@ const SUFFIXES: &[&str] = &[
     "hold",
     "inputs",
     "leave",
+    "leaves",
     "levels",
     "mode",
     "net",

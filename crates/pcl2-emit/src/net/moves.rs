@@ -149,6 +149,22 @@ static inline int32_t {tag}_vacant(const struct {tag} *self)
 "
         );
     }
+    if moves.looped {
+        let _ = write!(
+            out,
+            "/* Whether nothing but the exit is marked, so that a token may enter when that one leaves. */
+static inline int32_t {tag}_leaves(const struct {tag} *self)
+{{
+    int32_t tokens = 0;
+    for (int32_t place = 0; place < {n}; place++) {{
+        tokens |= (place == {exit} ? 0 : self->box[place]) | self->net.filled[place];
+    }}
+    return tokens == 0;
+}}
+
+"
+        );
+    }
     if moves.entered {
         let _ = write!(
             out,

@@ -1,9 +1,9 @@
 //! Tokens with attributes as code: which one a statement sees, which one a gate takes, where they go.
 
 use super::classes::{self, HAND, TOKENS};
-use super::{NetBody, statements};
+use super::{NetBody, fast, statements};
 use crate::statics::Statics;
-use pcl2_lang::net::{BoxId, Order, StatementId};
+use pcl2_lang::net::{BoxId, Kind, Order, StatementId};
 use pcl2_lang::program::SignalId;
 use std::fmt::Write;
 
@@ -53,6 +53,27 @@ impl NetBody<'_, '_, '_> {
     /// Whether a box has at most one token.
     pub(super) fn is_single(&self, id: BoxId) -> bool {
         self.net.place(id).capacity == Some(1)
+    }
+
+    /// Of a macro: what is true while its exit is marked, and the token there.
+    fn in_exit(&self, id: BoxId) -> Option<(String, String)> {
+        let Kind::Macro(part) = self.net.place(id).kind else {
+            return None;
+        };
+        let inner = fast::inner(self, part.0 as usize)?;
+        let inside = NetBody::of(&inner)?;
+        let exit = inside.net.exit?;
+        let root = format!("self->{}.", fast::member(self, part.0 as usize));
+        let token = format!("{root}{TOKENS}.{}[0]", inside.member(exit));
+        Some((format!("{root}box[{}] > 0", inside.place(exit)), token))
+    }
+
+    /// The token of a box that has one and no room for more; of a macro that in its exit, before that as it came in.
+    pub(super) fn sole_token(&self, id: BoxId) -> String {
+        match self.in_exit(id) {
+            Some((marked, token)) => format!("({marked} ? {token} : {}[0])", self.tokens(id)),
+            None => format!("{}[0]", self.tokens(id)),
+        }
     }
 
     /// The place of the first token of a box; negative where there is none.
@@ -121,7 +142,7 @@ pub(super) fn lend(
     for id in lenders {
         let (hand, tokens, fresh) = (net.hand(*id), net.tokens(*id), net.fresh(*id));
         if net.is_single(*id) {
-            let _ = writeln!(out, "{indent}{hand} = {} > 0 ? {tokens}[0] : {fresh};", net.left(*id));
+            let _ = writeln!(out, "{indent}{hand} = {} > 0 ? {} : {fresh};", net.left(*id), net.sole_token(*id));
             continue;
         }
         let at = lent(net, statement, *id);
@@ -185,9 +206,15 @@ pub(super) fn around(
         let (hand, tokens) = (net.hand(id), net.tokens(id));
         let _ = match held(hands, id) {
             Held::OnItsWay => Ok(()),
+            Held::At(_) if net.is_single(id) => {
+                give_back(out, net, id, indent);
+                Ok(())
+            }
             Held::At(place) => writeln!(out, "{indent}{tokens}[{place}] = {hand};"),
             Held::No if net.is_single(id) => {
-                writeln!(out, "{inner}if ({} > 0) {{\n{inner}    {tokens}[0] = {hand};\n{inner}}}", net.left(id))
+                let _ = writeln!(out, "{inner}if ({} > 0) {{", net.left(id));
+                give_back(out, net, id, &format!("{inner}    "));
+                writeln!(out, "{inner}}}")
             }
             Held::No => {
                 let at = lent(net, statement, id);
@@ -200,6 +227,23 @@ pub(super) fn around(
     }
 }
 
+/// Writes how the token in hand of a box that has one gets back.
+fn give_back(out: &mut String, net: &NetBody<'_, '_, '_>, id: BoxId, indent: &str) {
+    let (hand, tokens) = (net.hand(id), net.tokens(id));
+    let _ = match net.in_exit(id) {
+        Some((marked, token)) => write!(
+            out,
+            "{indent}if ({marked}) {{
+{indent}    {token} = {hand};
+{indent}}} else {{
+{indent}    {tokens}[0] = {hand};
+{indent}}}
+"
+        ),
+        None => writeln!(out, "{indent}{tokens}[0] = {hand};"),
+    };
+}
+
 /// Writes how a token gets into hand: that of a place, else the first; and how it leaves its box.
 pub(super) fn take(out: &mut String, net: &NetBody<'_, '_, '_>, id: BoxId, hands: &Hands, indent: &str) {
     if !net.carries(id) {
@@ -208,7 +252,7 @@ pub(super) fn take(out: &mut String, net: &NetBody<'_, '_, '_>, id: BoxId, hands
     let (hand, tokens, name) = (net.hand(id), net.tokens(id), net.place(id));
     if net.is_single(id) {
         if *held(hands, id) == Held::No {
-            let _ = writeln!(out, "{indent}{hand} = {tokens}[0];");
+            let _ = writeln!(out, "{indent}{hand} = {};", net.sole_token(id));
         }
         return;
     }
