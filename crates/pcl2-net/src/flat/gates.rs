@@ -138,9 +138,10 @@ impl Flattener<'_> {
             return;
         };
         transition.puts.extend(inner.net.entry.map(|entry| Arc { place: inner.place(entry), weight: 1 }));
-        if !is_before {
-            inner.place_ids().for_each(|place| inhibit(transition, Arc { place, weight: 1 }));
-        }
+        // What the gate itself takes stands in the exit.
+        let exit = inner.net.exit.map(|exit| inner.place(exit)).filter(|_| is_before);
+        let others = inner.place_ids().filter(|place| Some(*place) != exit);
+        others.for_each(|place| inhibit(transition, Arc { place, weight: 1 }));
     }
 
     fn room(&self, scope: usize, gate: &Gate, rule: &Rule) -> Room {
