@@ -189,13 +189,26 @@ fn room(net: &NetBody<'_, '_, '_>, gate: &Gate, rule: &Rule) -> Vec<String> {
     let mut tests: Vec<String> = Vec::new();
     for index in rule.moves.iter().flat_map(|tokens| &tokens.to) {
         let arc = &gate.after[*index as usize];
-        for test in box_room(net, arc.place, weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place))) {
+        let more = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place));
+        for test in gate_room(net, arc.place, more) {
             if !tests.contains(&test) {
                 tests.push(test);
             }
         }
     }
     tests
+}
+
+/// What must hold so that a gate can put so many tokens more into a box: a token that a gate before it took at once
+/// leaves no room in this scan.
+fn gate_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<String> {
+    let facts = &net.layout.facts;
+    let Some((set, gate)) = facts.begun[id.0 as usize].filter(|_| more == 1) else {
+        return box_room(net, id, more);
+    };
+    let alone = facts.putters[id.0 as usize] <= 1;
+    let begun = format!("(self->net.begun[{set}] & UINT32_C(0x{gate:08x})) == 0");
+    if alone { vec![begun] } else { [vec![begun], box_room(net, id, more)].concat() }
 }
 
 /// What must hold so that a box can take so many tokens more.
