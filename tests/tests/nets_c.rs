@@ -140,6 +140,27 @@ fn boxes_are_named_in_the_model_description() {
     assert_eq!(tokens["elements"], serde_json::json!(["a", "b"]));
 }
 
+/// An output that a gate asks for is as the last scan left it until the phase ends.
+#[test]
+fn gates_see_outputs_as_the_last_scan_left_them() {
+    let net = "int y, int z = n ( int x : )\nSTATE a MARKED\nSTATE b DRIVES y\nSTATE c MARKED\nSTATE d DRIVES z\n\
+               GATE g : a -> b IF x\nGATE h : c -> d IF y\nGATE i : b -> a IF NOT x\nGATE j : d -> c IF NOT y\nEND\n";
+    let trace = nets::traced(&[("n.net", net)], "k,x\n0,0\n2,1\n5,0\n", &["--steps", "8"]);
+    assert_eq!(column(&trace, "y"), [0., 0., 1., 1., 1., 0., 0., 0.]);
+    assert_eq!(column(&trace, "z"), [0., 0., 0., 1., 1., 1., 0., 0.]);
+}
+
+/// A token that was taken at once leaves no room for a later gate of the scan: in a full ring nothing else moves.
+#[test]
+fn a_token_taken_at_once_leaves_no_room_in_the_scan() {
+    let net = "= n ( int x : )\nSTATE a MARKED\nSTATE b\nSTATE c MARKED\n\
+               GATE g : a -> b IF x\nGATE h : c -> a\nGATE i : b -> c\nEND\n";
+    let trace = nets::traced(&[("n.net", net)], "k,x\n0,1\n", &["--steps", "4"]);
+    assert_eq!(column(&trace, "n.a"), [0., 1., 1., 0.]);
+    assert_eq!(column(&trace, "n.b"), [1., 1., 0., 1.]);
+    assert_eq!(column(&trace, "n.c"), [1., 0., 1., 1.]);
+}
+
 /// A pair of states for each input: the output is 1 exactly while the input is not 0.
 fn followers(name: &str, inputs: &[&str]) -> String {
     let outputs: Vec<String> = (0..inputs.len()).map(|i| format!("int y{i}")).collect();

@@ -35,6 +35,9 @@ pub(crate) struct NetFacts {
     last_looker: Vec<Option<usize>>,
     /// By box: the gates that it is the first box of, as words of a set.
     pub(crate) readied: Vec<Vec<(usize, u32)>>,
+    /// By box whose token is taken at once although a later gate asks for its room: the gate, as a word of a set, that
+    /// is ready when the phase begins exactly if the box is marked.
+    pub(crate) begun: Vec<Option<(usize, u32)>>,
     /// By box: the end of the gate phase may have to look at it.
     pub(crate) late: Vec<bool>,
     /// By box: the outputs that it drives, as places among `levels`.
@@ -102,6 +105,7 @@ pub(crate) fn of(program: &Program, net: &Net, unit: &Unit, held: usize, part: b
         ports.any(|signal| signal.0 as usize == held + word)
     };
     facts.unread = facts.levels.iter().map(|word| !reads(*word)).collect();
+    facts.begun = (0..net.boxes.len()).map(|place| facts.find_begun(net, BoxId(place as u32))).collect();
     facts.late = facts.find_late(net);
     facts.ticking = timers.iter().any(|word| part || reads(*word));
     facts
@@ -214,6 +218,19 @@ impl NetFacts {
         }
     }
 
+    /// What tells of a box for one token, when a gate has taken that at once, that it was marked when the phase began. The
+    /// net around a macro may empty its boxes.
+    fn find_begun(&self, net: &Net, place: BoxId) -> Option<(usize, u32)> {
+        let (set, gates) = *self.readied[place.0 as usize].first()?;
+        let early = |(gate, _): &(usize, &Gate)| {
+            self.is_movable(net, *gate, place) && self.last_putter[place.0 as usize].is_some_and(|last| last > *gate)
+        };
+        let mut takers =
+            net.gates.iter().enumerate().filter(|(_, gate)| gate.before.iter().any(|arc| arc.place == place));
+        let sole = net.place(place).capacity == Some(1) && net.exit.is_none();
+        (sole && takers.any(|taker| early(&taker))).then_some((set, gates & gates.wrapping_neg()))
+    }
+
     /// Boxes whose tokens do not all come and go at once. The net around a macro may empty all its boxes, and an operator
     /// may put a token into any box.
     fn find_late(&self, net: &Net) -> Vec<bool> {
@@ -260,9 +277,11 @@ impl NetFacts {
     }
 
     /// Whether a gate may take from a box at once, before the end of the phase: no gate after it in a scan asks how many
-    /// tokens the box had at the start, or what room.
+    /// tokens the box had at the start, or what room without being told.
     pub(crate) fn takes_at_once(&self, net: &Net, gate: usize, place: BoxId) -> bool {
-        self.is_movable(net, gate, place) && self.last_putter[place.0 as usize].is_none_or(|last| last <= gate)
+        let told = self.begun[place.0 as usize].is_some();
+        self.is_movable(net, gate, place)
+            && (told || self.last_putter[place.0 as usize].is_none_or(|last| last <= gate))
     }
 
     /// Whether a gate may put into a box at once: no gate after it in a scan could take the token, or asks for it. Gates

@@ -2,8 +2,9 @@
 //! once.
 //!
 //! A scan does what that of the player does, in the same order. Between its phases stand sets of boxes and gates:
-//! `ready` (gates whose first box is excited), `waiting` (boxes with something to do in the box phase), `touched` (boxes
-//! that a gate took from or put into), `shown` (boxes that count among those that drive outputs).
+//! `ready` (gates whose first box is excited), `begun` (those of them when the gate phase began), `waiting` (boxes with
+//! something to do in the box phase), `touched` (boxes that a gate took from or put into), `shown` (boxes that count among
+//! those that drive outputs).
 
 use super::facts::{generates, waits};
 use super::layout::{NetLayout, part_unit};
@@ -291,6 +292,12 @@ fn try_gates(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let sets = net.net.gates.len().div_ceil(gates::GATES);
     if sets == 0 {
         return;
+    }
+    if net.layout.keeps("begun") {
+        out.push_str("    /* Gates whose first box is marked now: a token that is taken at once leaves no room in this scan. */\n");
+    }
+    for set in (0..sets).filter(|set| net.layout.facts.begun.iter().flatten().any(|(begun, _)| begun == set)) {
+        let _ = writeln!(out, "    self->net.begun[{set}] = self->net.ready[{set}];");
     }
     for set in 0..sets {
         let open = if net.layout.keeps("open") { format!(" & self->net.open[{set}]") } else { String::new() };

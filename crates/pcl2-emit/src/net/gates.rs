@@ -8,6 +8,8 @@ use std::fmt::Write;
 
 /// The gates of one function.
 pub(super) const GATES: usize = 32;
+/// So many gates are passed over at once when none of them is ready.
+const GROUP: usize = 4;
 /// Indent of what a gate does.
 pub(super) const INDENT: &str = "            ";
 
@@ -25,15 +27,39 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
         let _ =
             writeln!(out, "static int32_t {tag}_gates_{}(struct {tag} *self, uint32_t ready{forced})\n{{", word + 1);
         out.push_str("    int32_t fired = 0;\n");
-        out.push_str("    while (ready != 0) {\n        const int32_t gate = pcl2_net_lowest(ready);\n");
-        out.push_str("        ready &= ready - 1;\n        switch (gate) {\n");
-        for (i, gate) in gates.iter().enumerate() {
-            let _ = writeln!(out, "        case {i}: {{");
-            self::gate(out, statics, net, gate, word * GATES + i);
-            out.push_str("            break;\n        }\n");
+        for (group, members) in gates.chunks(GROUP).enumerate() {
+            let set = (0..members.len()).fold(0, |set, i| set | bit(group * GROUP + i));
+            let _ = writeln!(out, "    if ((ready & UINT32_C(0x{set:08x})) != 0) {{");
+            for (i, gate) in members.iter().enumerate() {
+                let place = group * GROUP + i;
+                let _ = writeln!(out, "        if ((ready & UINT32_C(0x{:08x})) != 0) {{", bit(place));
+                tried(out, statics, net, gate, word * GATES + place);
+                out.push_str("        }\n");
+            }
+            out.push_str("    }\n");
         }
-        out.push_str("        default:\n            break;\n        }\n    }\n    return fired;\n}\n\n");
+        out.push_str("    return fired;\n}\n\n");
     }
+}
+
+/// A gate in the set of its word.
+fn bit(gate: usize) -> u32 {
+    1 << (gate % GATES)
+}
+
+/// Writes a gate; one that is left before its end stands in a block that can be left.
+fn tried(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate: &Gate, index: usize) {
+    let mut text = String::new();
+    self::gate(&mut text, statics, net, gate, index);
+    if !text.contains("break;") {
+        out.push_str(&text);
+        return;
+    }
+    let _ = writeln!(out, "{INDENT}do {{");
+    for line in text.lines() {
+        out.extend(["    ", line, "\n"]);
+    }
+    let _ = writeln!(out, "{INDENT}}} while (0);");
 }
 
 fn gate(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, gate: &Gate, index: usize) {
@@ -202,13 +228,26 @@ pub(super) fn room(net: &NetBody<'_, '_, '_>, gate: &Gate, rule: &Rule) -> Vec<S
     let mut tests: Vec<String> = Vec::new();
     for index in rule.moves.iter().flat_map(|tokens| &tokens.to) {
         let arc = &gate.after[*index as usize];
-        for test in box_room(net, arc.place, weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place))) {
+        let more = weight(arc.weight).saturating_sub(weight_in(&gate.before, arc.place));
+        for test in gate_room(net, arc.place, more) {
             if !tests.contains(&test) {
                 tests.push(test);
             }
         }
     }
     tests
+}
+
+/// What must hold so that a gate can put so many tokens more into a box: a token that a gate before it took at once
+/// leaves no room in this scan.
+fn gate_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<String> {
+    let facts = &net.layout.facts;
+    let Some((set, gate)) = facts.begun[id.0 as usize].filter(|_| more == 1) else {
+        return box_room(net, id, more);
+    };
+    let alone = facts.putters[id.0 as usize] <= 1;
+    let begun = format!("(self->net.begun[{set}] & UINT32_C(0x{gate:08x})) == 0");
+    if alone { vec![begun] } else { [vec![begun], box_room(net, id, more)].concat() }
 }
 
 /// What must hold so that a box can take so many tokens more.

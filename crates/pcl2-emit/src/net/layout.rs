@@ -355,6 +355,8 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.add_if(facts.tracks(), "conflicts", "int32_t", None);
     fields.add_if(generates, "lost", "int32_t", None);
     fields.add("ready", "uint32_t", sets(net.gates.len()));
+    let begun = facts.begun.iter().any(Option::is_some);
+    fields.add_if(begun, "begun", "uint32_t", sets(net.gates.len()));
     fields.add_if(facts.has_literals(), "open", "uint32_t", sets(net.gates.len()));
     fields.add("touched", "uint32_t", sets(boxes));
     fields.add_if((33..=32 * 32).contains(&boxes), MOVED, "uint32_t", None);
