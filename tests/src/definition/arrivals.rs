@@ -1,0 +1,25 @@
+//! The end of the gate phase: what was taken is gone, what was put arrives.
+
+use super::instance::{Arrival, BoxState, Instance};
+use super::tokens::World;
+
+/// For a net, then for those inside.
+pub(super) fn arrive(instance: &mut Instance, world: &mut World) {
+    for state in &mut instance.boxes {
+        state.tokens.retain(|token| !instance.taken.contains(token));
+    }
+    for Arrival { place, token, rank } in std::mem::take(&mut instance.arriving) {
+        let state = &mut instance.boxes[place];
+        state.tokens.push(token);
+        let (tokens, held, waits) = (std::mem::take(&mut state.tokens), state.held, state.waits);
+        *state = BoxState { tokens, held, waits, rank, since: instance.now, ready: true, ..BoxState::default() };
+        if let Some(part) = instance.net.part_of(place) {
+            let inside = &mut instance.parts[part];
+            if let Some(entry) = inside.net.entry() {
+                let copy = world.copy(token);
+                inside.arriving.push(Arrival { place: entry, token: copy, rank });
+            }
+        }
+    }
+    instance.parts.iter_mut().for_each(|part| arrive(part, world));
+}
