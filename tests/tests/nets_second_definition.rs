@@ -11,6 +11,8 @@ use pcl2_tests::{pcl2, run};
 use std::fs;
 use std::path::Path;
 
+static UNSETTLED: std::sync::Mutex<std::collections::BTreeMap<&str, usize>> =
+    std::sync::Mutex::new(std::collections::BTreeMap::new());
 const SCANS: usize = 120;
 const PERIOD: i64 = 250_000_000;
 
@@ -52,6 +54,10 @@ fn difference(net: &Net, stimulus: &Stimulus, trace: &str, told: &str) -> Option
     let mut faults: Vec<(usize, Vec<Fault>)> = Vec::new();
     for (scan, (row, writes)) in reader.records().zip(&stimulus.scans).enumerate() {
         let (mut expected, seen) = defined.scan(writes);
+        if let Some(why) = defined.unsettled() {
+            *UNSETTLED.lock().unwrap().entry(why).or_insert(0) += 1;
+            return None;
+        }
         for (name, text) in names.iter().zip(row.unwrap().iter()) {
             let Some(expected) = expected.remove(name) else { continue };
             let found = if text == "nan" { f64::NAN } else { text.parse().unwrap() };
@@ -103,6 +109,9 @@ fn compared(folder: &Path, net: &Net, stimulus: &Stimulus) -> Result<Option<Stri
 /// A net and a stimulus that differ still, with less in them.
 fn smallest(folder: &Path, mut net: Net, mut stimulus: Stimulus) -> (Net, Stimulus) {
     let differs = |net: &Net, stimulus: &Stimulus| {
+        if stimulus.scans[0].get("mode").is_some_and(|mode| mode.int() == 3) {
+            return false;
+        }
         std::panic::catch_unwind(|| compared(folder, net, stimulus)).is_ok_and(|found| matches!(found, Ok(Some(_))))
     };
     let mut size = usize::MAX;
@@ -165,4 +174,5 @@ fn random_nets_do_what_the_second_definition_says() {
             eprintln!("{e}");
         }
     }
+    eprintln!("unsettled {:?}", UNSETTLED.lock().unwrap());
 }

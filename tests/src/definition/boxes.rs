@@ -77,6 +77,9 @@ fn begin(instance: &mut Instance, place: usize, acts: &[Statement], world: &mut 
 fn has_passed(instance: &Instance, time: &Expression, since: i64, hand: &Hand, world: &World) -> bool {
     let found = time.value(&|operand| instance.find(operand, hand, world));
     let nanoseconds = found.value.real() * 1e9;
+    if found.bad {
+        world.unsettled.set(Some("whether a time that is bad is over"));
+    }
     !found.bad && (instance.now - since) as f64 >= nanoseconds.round()
 }
 
@@ -111,7 +114,8 @@ fn go_on(instance: &mut Instance, place: usize, process: &Process, world: &mut W
 
 /// An edge makes a token, or waits for room, or is lost.
 fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut World) {
-    if instance.boxes[place].waits && has_room(instance, place, generate) {
+    let got_room = instance.boxes[place].waits && has_room(instance, place, generate);
+    if got_room {
         instance.boxes[place].waits = false;
         add(instance, place, generate, world);
     }
@@ -120,6 +124,9 @@ fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut 
     instance.boxes[place].held = holds;
     if !edge {
         return;
+    }
+    if got_room {
+        world.unsettled.set(Some("whether an edge is lost that comes when the one before has just got its room"));
     }
     if has_room(instance, place, generate) {
         add(instance, place, generate, world);

@@ -27,14 +27,17 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
     let Some(at) = net.part_of(place) else { return };
     let Some(abort) = &net.parts[at].abort else { return };
     let to = net.place(&abort.to);
+    let emptied = instance.start[place].iter().any(|token| instance.taken.contains(token));
+    if emptied && instance.holds(&abort.condition, &[], world) {
+        world.unsettled.set(Some("an ABORT inside a macro that was just emptied"));
+    }
     let marked = instance.start[place].iter().find(|token| !instance.taken.contains(*token)).copied();
     let Some(token) = marked else { return };
     if !instance.holds(&abort.condition, &[], world) || !instance.has_room(to, 1, 0) {
         return;
     }
-    let rank = i64::MAX;
+    let rank = (i64::MAX, 0);
     instance.take_all(place);
-    instance.clear_commands(&abort.condition);
     run(instance, &abort.acts, rank, &[(net.boxes[place].name.clone(), token)], world);
     instance.put(to, token, rank);
     instance.filled[to] += 1;
@@ -63,6 +66,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     if !instance.is_enabled(gate, world) {
         return false;
     }
+    instance.mind_reads(gate, world);
     let rule = instance.rule_that_holds(gate, world);
     let first = || gate.rules.first().map(|rule| (rule, instance.hands(gate, rule, world).swap_remove(0)));
     let Some((rule, hand)) = (if forced { rule.or_else(first) } else { rule }) else { return false };
@@ -80,7 +84,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
         return false;
     }
     gains.iter().for_each(|(place, gain)| instance.filled[*place] += gain);
-    fire(instance, gate, rule, &hand, gate.priority, world);
+    fire(instance, gate, rule, &hand, (gate.priority, -i64::try_from(at).unwrap_or(i64::MAX)), world);
     true
 }
 

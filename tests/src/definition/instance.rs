@@ -26,13 +26,13 @@ pub(super) enum Mode {
     Stopped,
 }
 
-/// The priority of the gate to which a statement belongs; the value of the higher one stays.
-pub(super) type Rank = i64;
+/// The gate to which a statement belongs, by priority, then by its place in the file; the value of the higher one stays.
+pub(super) type Rank = (i64, i64);
 
 /// A statement of a token that no gate has put.
 ///
 /// The page does not say what its priority is.
-pub(super) const NOBODY: Rank = i64::MAX;
+pub(super) const NOBODY: Rank = (i64::MAX, 1);
 
 /// Tokens that go to a box at the end of the phase.
 pub(super) struct Arrival {
@@ -87,6 +87,8 @@ pub(super) struct Instance<'n> {
     pub(super) arriving: Vec<Arrival>,
     /// Outputs that statements wrote in this scan: the value, and whose it is.
     pub(super) written: BTreeMap<String, (Value, Rank)>,
+    /// Outputs that were written and counted on in this scan.
+    pub(super) counted: BTreeSet<String>,
     /// Commands that were given in this scan, or read by a gate that fired: they become 0.
     pub(super) cleared: Vec<String>,
     /// For each ACTIVE the box, and since when.
@@ -127,6 +129,12 @@ impl<'n> Run<'n> {
         (self.row(), self.world.faults.clone())
     }
 
+    /// What happened so far of which the page and the player do not say the same, or the page says nothing: from there on
+    /// a run proves nothing.
+    pub fn unsettled(&self) -> Option<&'static str> {
+        self.world.unsettled.get()
+    }
+
     fn row(&self) -> BTreeMap<String, Value> {
         let net = self.root.net;
         let cells = net.momentary.iter().chain(net.mode.iter().skip(1));
@@ -164,6 +172,7 @@ impl<'n> Instance<'n> {
             filled: vec![0; net.boxes.len()],
             arriving: Vec::new(),
             written: BTreeMap::new(),
+            counted: BTreeSet::new(),
             cleared: Vec::new(),
             active: Vec::new(),
             held_back: 0,
@@ -194,6 +203,7 @@ impl<'n> Instance<'n> {
     /// A scan begins, for all nets inside too.
     fn begin(&mut self) {
         self.written.clear();
+        self.counted.clear();
         self.cleared.clear();
         self.held_back = 0;
         self.parts.iter_mut().for_each(Instance::begin);
@@ -240,6 +250,7 @@ impl<'n> Instance<'n> {
             Expression::Word(name) => Found::from(self.words[name]),
             Expression::Tokens(path) => {
                 let (instance, place) = self.at(path);
+                instance.mind_new_tokens(place, world);
                 Found::from(Value::Int(i32::try_from(instance.start[place].len()).unwrap_or(i32::MAX)))
             }
             Expression::Attribute(name, attribute) => match self.token_called(name, hand, world) {
@@ -274,7 +285,17 @@ impl<'n> Instance<'n> {
     pub(super) fn token_called(&self, name: &str, hand: &[(String, Token)], world: &World) -> Option<Token> {
         let in_hand = hand.iter().find(|(from, _)| from == name).map(|(_, token)| *token);
         let place = self.net.place(name);
+        if in_hand.is_none() {
+            self.mind_new_tokens(place, world);
+        }
         in_hand.or_else(|| world.in_order(self.net, place, &self.start[place]).first().copied())
+    }
+
+    /// What a name means is the marking at the start of the phase.
+    fn mind_new_tokens(&self, place: usize, world: &World) {
+        if self.boxes[place].tokens != self.start[place] {
+            world.unsettled.set(Some("whether a box phase sees a token that was made in it"));
+        }
     }
 
     /// The page does not say what this is. Nothing that is not there makes a condition true.

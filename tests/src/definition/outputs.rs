@@ -23,6 +23,9 @@ pub(super) fn follow(instance: &mut Instance, world: &World) {
 /// What is not named is 0; that of ACTIVE stays.
 fn stopped(instance: &mut Instance) {
     let net = instance.net;
+    if let Some(name) = &net.blocked {
+        instance.words.insert(name.clone(), Value::Int(0));
+    }
     for output in &net.outputs {
         let named = net.stops.iter().find(|(name, _)| *name == output.name).map(|(_, stop)| *stop);
         let is_active =

@@ -46,6 +46,17 @@ impl Instance<'_> {
             })
     }
 
+    /// What is read must have been there at the start of the phase.
+    pub(super) fn mind_reads(&self, gate: &Gate, world: &World) {
+        for (name, _) in gate.reads.iter().filter(|(name, _)| !name.contains('.')) {
+            let place = self.net.place(name);
+            let taken = self.start[place].iter().any(|token| self.taken.contains(token));
+            if taken && self.net.boxes[place].class.is_some() {
+                world.unsettled.set(Some("whether a condition sees a token in a READ box that another gate took"));
+            }
+        }
+    }
+
     /// The first rule that holds, with the tokens that satisfy it.
     pub(super) fn rule_that_holds<'g>(&self, gate: &'g Gate, world: &World) -> Option<(&'g Rule, Hand)> {
         gate.rules.iter().find_map(|rule| {

@@ -38,8 +38,14 @@ pub(super) fn run(
 /// in no conflict.
 fn write(instance: &mut Instance, name: &str, value: Value, reads_itself: bool, rank: Rank, world: &mut World) {
     let is_output = instance.net.outputs.iter().any(|output| output.name == name);
+    if is_output && reads_itself && instance.written.contains_key(name) {
+        instance.counted.insert(name.to_owned());
+    }
     if is_output && !reads_itself {
         if let Some((before, whose)) = instance.written.get(name).copied() {
+            if instance.counted.contains(name) {
+                world.unsettled.set(Some("whether a write differs from one that was counted on since"));
+            }
             if !before.same(value) {
                 world.faults.push(Fault::Conflict);
             }

@@ -3,6 +3,7 @@
 use super::Fault;
 use super::expression::Value;
 use super::model::{Class, Kind, Net, Order};
+use std::cell::Cell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -15,6 +16,8 @@ pub(super) struct World {
     tokens: Vec<BTreeMap<String, Value>>,
     /// Faults of this scan.
     pub(super) faults: Vec<Fault>,
+    /// What happened in this run that is not settled.
+    pub(super) unsettled: Cell<Option<&'static str>>,
     /// Nanoseconds from scan to scan.
     pub(super) period: i64,
 }
@@ -22,7 +25,7 @@ pub(super) struct World {
 impl World {
     /// Without a token yet.
     pub(super) fn new(period: i64) -> World {
-        World { tokens: Vec::new(), faults: Vec::new(), period }
+        World { tokens: Vec::new(), faults: Vec::new(), unsettled: Cell::new(None), period }
     }
 
     /// A token with the first values of its class.

@@ -150,18 +150,7 @@ impl Maker<'_> {
             return Statement { target: Target::Attribute(place, name), value };
         }
         let Word { name, first } = self.writable[self.dice.below(self.writable.len())].clone();
-        // Not settled: what of a write, a count and another write in one scan is a conflict. So `w1` is only counted, and
-        // the other outputs are not.
-        let value = match (name.as_str(), first) {
-            ("w1", _) => two(Operator::Plus, word(&name), number(1 + self.dice.roll(3) as i32)),
-            ("w0" | "r0", _) => loop {
-                let value = self.assigned(&Expression::Number(first), first, asked);
-                if !value.reads(&name) {
-                    break value;
-                }
-            },
-            (_, _) => self.assigned(&word(&name), first, asked),
-        };
+        let value = self.assigned(&word(&name), first, asked);
         Statement { target: Target::Word(name), value }
     }
 
