@@ -11,6 +11,8 @@ use pcl2_tests::{pcl2, run};
 use std::fs;
 use std::path::Path;
 
+static HAPPENED: std::sync::Mutex<std::collections::BTreeMap<&str, usize>> =
+    std::sync::Mutex::new(std::collections::BTreeMap::new());
 static UNSETTLED: std::sync::Mutex<std::collections::BTreeMap<&str, usize>> =
     std::sync::Mutex::new(std::collections::BTreeMap::new());
 const SCANS: usize = 120;
@@ -54,6 +56,14 @@ fn difference(net: &Net, stimulus: &Stimulus, trace: &str, told: &str) -> Option
     let mut faults: Vec<(usize, Vec<Fault>)> = Vec::new();
     for (scan, (row, writes)) in reader.records().zip(&stimulus.scans).enumerate() {
         let (mut expected, seen) = defined.scan(writes);
+        if scan + 1 == stimulus.scans.len() || defined.unsettled().is_some() {
+            for (what, times) in defined.happened() {
+                *HAPPENED.lock().unwrap().entry(what).or_insert(0) += times;
+            }
+            for fault in faults.iter().flat_map(|(_, faults)| faults) {
+                *HAPPENED.lock().unwrap().entry(text_of(*fault)).or_insert(0) += 1;
+            }
+        }
         if let Some(why) = defined.unsettled() {
             *UNSETTLED.lock().unwrap().entry(why).or_insert(0) += 1;
             return None;
@@ -175,4 +185,5 @@ fn random_nets_do_what_the_second_definition_says() {
         }
     }
     eprintln!("unsettled {:?}", UNSETTLED.lock().unwrap());
+    eprintln!("happened {:?}", HAPPENED.lock().unwrap());
 }

@@ -108,6 +108,7 @@ fn go_on(instance: &mut Instance, place: usize, process: &Process, world: &mut W
     let rank = state.rank;
     run(instance, &process.after, rank, &hand, world);
     let state = &mut instance.boxes[place];
+    world.note(if state.ready { "process complete" } else { "process waits on" });
     state.complete = state.ready;
     state.timer = instance.now;
 }
@@ -133,6 +134,7 @@ fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut 
     } else if instance.boxes[place].waits {
         world.faults.push(Fault::Lost);
     } else {
+        world.note("edge waits");
         instance.boxes[place].waits = true;
     }
 }
@@ -142,6 +144,7 @@ fn has_room(instance: &Instance, place: usize, generate: &Generate) -> bool {
 }
 
 fn add(instance: &mut Instance, place: usize, generate: &Generate, world: &mut World) {
+    world.note("token made");
     let described = &instance.net.boxes[place];
     let class = described.class.as_ref().and_then(|class| instance.net.class(class));
     let token = world.new_token(class);

@@ -48,6 +48,7 @@ fn commands_of(instance: &mut Instance, holder_is_marked: bool, world: &mut Worl
         for at in 2..=4 {
             let number = command(instance, at);
             if number != 0 {
+                world.note("command in manual mode");
                 let done =
                     usize::try_from(number).is_ok_and(|number| obey(instance, at, number - 1, holder_is_marked, world));
                 world.faults.push(if done { Fault::Forced } else { Fault::Refused });

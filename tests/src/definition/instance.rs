@@ -135,6 +135,11 @@ impl<'n> Run<'n> {
         self.world.unsettled.get()
     }
 
+    /// How often what happened so far.
+    pub fn happened(&self) -> BTreeMap<&'static str, usize> {
+        self.world.happened.borrow().clone()
+    }
+
     fn row(&self) -> BTreeMap<String, Value> {
         let net = self.root.net;
         let cells = net.momentary.iter().chain(net.mode.iter().skip(1));
@@ -247,7 +252,12 @@ impl<'n> Instance<'n> {
     /// What an operand is.
     pub(super) fn find(&self, operand: &Expression, hand: &[(String, Token)], world: &World) -> Found {
         match operand {
-            Expression::Word(name) => Found::from(self.words[name]),
+            Expression::Word(name) => {
+                if self.cleared.contains(name) && self.net.momentary.contains(name) {
+                    world.unsettled.set(Some("whether a command is seen in the scan in which a gate cleared it"));
+                }
+                Found::from(self.words[name])
+            }
             Expression::Tokens(path) => {
                 let (instance, place) = self.at(path);
                 instance.mind_new_tokens(place, world);

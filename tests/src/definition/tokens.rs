@@ -3,7 +3,7 @@
 use super::Fault;
 use super::expression::Value;
 use super::model::{Class, Kind, Net, Order};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -18,6 +18,8 @@ pub(super) struct World {
     pub(super) faults: Vec<Fault>,
     /// What happened in this run that is not settled.
     pub(super) unsettled: Cell<Option<&'static str>>,
+    /// How often what happened.
+    pub(super) happened: RefCell<BTreeMap<&'static str, usize>>,
     /// Nanoseconds from scan to scan.
     pub(super) period: i64,
 }
@@ -25,7 +27,18 @@ pub(super) struct World {
 impl World {
     /// Without a token yet.
     pub(super) fn new(period: i64) -> World {
-        World { tokens: Vec::new(), faults: Vec::new(), unsettled: Cell::new(None), period }
+        World {
+            tokens: Vec::new(),
+            faults: Vec::new(),
+            unsettled: Cell::new(None),
+            happened: RefCell::default(),
+            period,
+        }
+    }
+
+    /// Counts what happens, so that a comparison can tell what it has seen.
+    pub(super) fn note(&self, what: &'static str) {
+        *self.happened.borrow_mut().entry(what).or_insert(0) += 1;
     }
 
     /// A token with the first values of its class.

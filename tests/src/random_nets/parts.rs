@@ -4,7 +4,7 @@ use super::Maker;
 use super::boxes::plain;
 use super::{input, int, real};
 use crate::definition::expression::{Expression, Value};
-use crate::definition::model::{Abort, Class, Gate, Kind, Net, Part, Rule};
+use crate::definition::model::{Abort, Class, Gate, Kind, Net, Part, Route, Rule};
 
 impl Maker<'_> {
     /// Macros and modules, some in more than one instance.
@@ -30,6 +30,34 @@ impl Maker<'_> {
             self.part(&format!("M{at}"), net, outputs);
             self.net.boxes.push(place);
             self.abort();
+            self.ways(&format!("M{at}"));
+        }
+    }
+
+    /// Gates into a macro and out of it.
+    fn ways(&mut self, name: &str) {
+        let class = self.class_of(name).map(|class| class.name.clone());
+        let same = self.net.boxes.iter().filter(|place| place.class == class && place.name != name);
+        let same: Vec<String> = same.map(|place| place.name.clone()).collect();
+        for (gate, leaves) in [(format!("to{name}"), false), (format!("from{name}"), true)] {
+            let other = if same.is_empty() { None } else { Some(same[self.dice.below(same.len())].clone()) };
+            let (before, after) = if leaves { (Some(name.to_owned()), other) } else { (other, Some(name.to_owned())) };
+            // A token with attributes comes from a box of its class, or is new.
+            let route = |from: &Option<String>, to: &Option<String>| Route {
+                from: from.clone(),
+                to: to.iter().cloned().collect(),
+            };
+            let routes = if before.is_none() { vec![route(&None, &after)] } else { vec![route(&before, &after)] };
+            let condition = self.dice.once_in(2).then(|| self.condition(&[]));
+            let arc = |name: Option<String>| name.into_iter().map(|name| (name, 1)).collect();
+            let rule = Rule { condition, routes, acts: Vec::new() };
+            self.net.gates.push(Gate {
+                name: gate,
+                before: arc(before),
+                after: arc(after),
+                rules: vec![rule],
+                ..Gate::default()
+            });
         }
     }
 
@@ -63,7 +91,7 @@ impl Maker<'_> {
             place.class == last.class && !matches!(place.kind, Kind::Count(_)) && place.name != last.name
         });
         let homes: Vec<String> = homes.map(|place| place.name.clone()).collect();
-        if homes.is_empty() || self.dice.once_in(3) {
+        if homes.is_empty() || self.dice.once_in(2) {
             return;
         }
         let (condition, to) = (self.condition(&[]), homes[self.dice.below(homes.len())].clone());
@@ -165,9 +193,8 @@ impl Maker<'_> {
         }
     }
 
-    fn new_tokens(&self, from: &str, to: &str) -> Vec<crate::definition::model::Route> {
-        let route =
-            |from: Option<&str>, to: Vec<String>| crate::definition::model::Route { from: from.map(str::to_owned), to };
+    fn new_tokens(&self, from: &str, to: &str) -> Vec<Route> {
+        let route = |from: Option<&str>, to: Vec<String>| Route { from: from.map(str::to_owned), to };
         vec![route(Some(from), Vec::new()), route(None, vec![to.to_owned()])]
     }
 }
