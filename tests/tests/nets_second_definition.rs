@@ -125,6 +125,12 @@ fn smallest(folder: &Path, mut net: Net, mut stimulus: Stimulus) -> (Net, Stimul
         std::panic::catch_unwind(|| compared(folder, net, stimulus)).is_ok_and(|found| matches!(found, Ok(Some(_))))
     };
     let mut size = usize::MAX;
+    let mut open = net.clone();
+    open.boxes.iter_mut().for_each(|place| place.repeated = None);
+    open.gates.iter_mut().for_each(|gate| gate.repeated = None);
+    if differs(&open, &stimulus) {
+        net = open;
+    }
     let length = |net: &Net, stimulus: &Stimulus| {
         text::files(net).values().map(String::len).sum::<usize>() + stimulus.text(net).len()
     };

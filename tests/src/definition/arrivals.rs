@@ -1,6 +1,6 @@
 //! The end of the gate phase: what was taken is gone, what was put arrives.
 
-use super::instance::{Arrival, BoxState, Instance};
+use super::instance::{Arrival, Instance};
 use super::tokens::World;
 
 /// For a net, then for those inside.
@@ -11,8 +11,8 @@ pub(super) fn arrive(instance: &mut Instance, world: &mut World) {
     for Arrival { place, token, rank } in std::mem::take(&mut instance.arriving) {
         let state = &mut instance.boxes[place];
         state.tokens.push(token);
-        let (tokens, held, waits) = (std::mem::take(&mut state.tokens), state.held, state.waits);
-        *state = BoxState { tokens, held, waits, rank, since: instance.now, ready: true, ..BoxState::default() };
+        (state.rank, state.since) = (rank, instance.now);
+        (state.begun, state.complete) = (false, false);
         if let Some(part) = instance.net.part_of(place) {
             let inside = &mut instance.parts[part];
             if let Some(entry) = inside.net.entry() {

@@ -1,7 +1,7 @@
 //! The gate phase: every ABORT, then gates by priority.
 
 use super::expression::Expression;
-use super::instance::{Arrival, Hand, Instance, Mode, Rank};
+use super::instance::{Arrival, Hand, Instance, Mode, NOBODY, Rank};
 use super::model::{Gate, Kind, Net, Rule};
 use super::statements::run;
 use super::tokens::{Token, World};
@@ -36,7 +36,7 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
     if !instance.holds(&abort.condition, &[], world) || !instance.has_room(to, 1, 0) {
         return;
     }
-    let rank = (i64::MAX, 0);
+    let rank = NOBODY;
     world.note("abort");
     instance.take_all(place);
     run(instance, &abort.acts, rank, &[(net.boxes[place].name.clone(), token)], world);
@@ -74,6 +74,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     let deposits = deposits(instance.net, gate, rule);
     let gains: Vec<(usize, usize)> =
         deposits.iter().map(|(place, weight)| (*place, instance.gain(gate, *place, *weight))).collect();
+    instance.mind_reentry(gate, world);
     if !gains.iter().all(|(place, gain)| instance.has_room(*place, *gain, taken_from(instance.net, gate, *place))) {
         return false;
     }
@@ -216,6 +217,16 @@ impl Instance<'_> {
             }
         }
         gain == 0 || self.net.room(place).is_none_or(|room| self.start[place].len() + self.filled[place] + gain <= room)
+    }
+
+    /// No token enters while anything inside is marked.
+    fn mind_reentry(&self, gate: &Gate, world: &World) {
+        for (name, _) in gate.before.iter().filter(|(name, _)| gate.after.iter().any(|(after, _)| after == name)) {
+            let place = self.net.place(name);
+            if self.net.part_of(place).is_some() && !self.has_room(place, 0, 1) {
+                world.unsettled.set(Some("whether a macro's token leaves and enters while another is inside"));
+            }
+        }
     }
 
     /// How many tokens more a box has when a gate fires.

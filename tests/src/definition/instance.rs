@@ -29,10 +29,10 @@ pub(super) enum Mode {
 /// The gate to which a statement belongs, by priority, then by its place in the file; the value of the higher one stays.
 pub(super) type Rank = (i64, i64);
 
-/// A statement of a token that no gate has put.
+/// A statement of an ABORT, or of a token that no gate has put.
 ///
 /// The page does not say what its priority is.
-pub(super) const NOBODY: Rank = (i64::MAX, 1);
+pub(super) const NOBODY: Rank = (i64::MAX, 0);
 
 /// Tokens that go to a box at the end of the phase.
 pub(super) struct Arrival {
@@ -89,6 +89,8 @@ pub(super) struct Instance<'n> {
     pub(super) written: BTreeMap<String, (Value, Rank)>,
     /// Outputs that were written and counted on in this scan.
     pub(super) counted: BTreeSet<String>,
+    /// Outputs and locals that were written in this scan.
+    pub(super) touched: BTreeSet<String>,
     /// Commands that were given in this scan, or read by a gate that fired: they become 0.
     pub(super) cleared: Vec<String>,
     /// For each ACTIVE the box, and since when.
@@ -178,6 +180,7 @@ impl<'n> Instance<'n> {
             arriving: Vec::new(),
             written: BTreeMap::new(),
             counted: BTreeSet::new(),
+            touched: BTreeSet::new(),
             cleared: Vec::new(),
             active: Vec::new(),
             held_back: 0,
@@ -209,6 +212,7 @@ impl<'n> Instance<'n> {
     fn begin(&mut self) {
         self.written.clear();
         self.counted.clear();
+        self.touched.clear();
         self.cleared.clear();
         self.held_back = 0;
         self.parts.iter_mut().for_each(Instance::begin);

@@ -331,6 +331,13 @@ impl Net {
     }
 }
 
+impl Active {
+    /// Whether it fills an output.
+    pub fn fills(&self, output: &str) -> bool {
+        self.step == output || self.time.as_deref() == Some(output)
+    }
+}
+
 impl Part {
     /// The outputs of the net inside that go to a word.
     pub fn bound<'p>(&'p self, word: &'p str) -> impl Iterator<Item = &'p str> {

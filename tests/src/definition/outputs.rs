@@ -28,8 +28,7 @@ fn stopped(instance: &mut Instance) {
     }
     for output in &net.outputs {
         let named = net.stops.iter().find(|(name, _)| *name == output.name).map(|(_, stop)| *stop);
-        let is_active =
-            net.active.iter().any(|active| active.step == output.name || active.time.as_ref() == Some(&output.name));
+        let is_active = net.active.iter().any(|active| active.fills(&output.name));
         match named {
             Some(Stop::Is(value)) => drop(instance.shown.insert(output.name.clone(), value)),
             Some(Stop::Hold) => {}
@@ -39,13 +38,16 @@ fn stopped(instance: &mut Instance) {
     }
 }
 
-/// Values that nets inside write.
+/// Values that nets inside write, when they do; those of ACTIVE always.
 fn from_parts(instance: &mut Instance) {
     let net = instance.net;
     for (part, inside) in net.parts.iter().zip(&instance.parts) {
         for (output, to) in part.net.outputs.iter().zip(&part.outputs) {
-            if let (Some(to), false) = (to, part.net.is_driven(&output.name)) {
+            let Some(to) = to else { continue };
+            let is_active = part.net.active.iter().any(|active| active.fills(&output.name));
+            if is_active || inside.touched.contains(&output.name) {
                 instance.words.insert(to.clone(), inside.shown[&output.name].like(instance.words[to]));
+                instance.touched.insert(to.clone());
             }
         }
     }

@@ -57,10 +57,23 @@ impl Instance<'_> {
         }
     }
 
+    /// The token of a macro that is taken is the one at its exit.
+    pub(super) fn mind_macros(&self, gate: &Gate, rule: &Rule, hand: &[(String, Token)], world: &World) {
+        for (name, token) in hand {
+            let place = self.net.place(name);
+            let asked = rule.condition.iter().chain(&gate.permits).any(|condition| condition.asks(name));
+            let other = self.start[place].first().is_some_and(|own| !world.are_alike(*own, *token));
+            if self.net.part_of(place).is_some() && asked && other {
+                world.unsettled.set(Some("whether a condition sees a macro's token as it entered"));
+            }
+        }
+    }
+
     /// The first rule that holds, with the tokens that satisfy it.
     pub(super) fn rule_that_holds<'g>(&self, gate: &'g Gate, world: &World) -> Option<(&'g Rule, Hand)> {
         gate.rules.iter().find_map(|rule| {
             let mut hands = self.hands(gate, rule, world).into_iter();
+            hands.as_slice().iter().for_each(|hand| self.mind_macros(gate, rule, hand, world));
             let found =
                 hands.find(|hand| rule.condition.as_ref().is_none_or(|condition| self.holds(condition, hand, world)));
             found.map(|hand| (rule, hand))

@@ -56,5 +56,6 @@ fn write(instance: &mut Instance, name: &str, value: Value, reads_itself: bool, 
         }
         instance.written.insert(name.to_owned(), (value, rank));
     }
+    instance.touched.insert(name.to_owned());
     instance.words.insert(name.to_owned(), value);
 }

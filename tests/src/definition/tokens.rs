@@ -54,6 +54,11 @@ impl World {
         self.tokens.len() - 1
     }
 
+    /// Whether attributes of two tokens are the same.
+    pub(super) fn are_alike(&self, a: Token, b: Token) -> bool {
+        self.tokens[a].iter().zip(&self.tokens[b]).all(|((_, a), (_, b))| a.same(*b))
+    }
+
     pub(super) fn attribute(&self, token: Token, name: &str) -> Value {
         self.tokens[token][name]
     }

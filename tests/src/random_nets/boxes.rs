@@ -70,7 +70,7 @@ impl Maker<'_> {
         if self.dice.once_in(2) {
             return;
         }
-        place.marked = if self.dice.once_in(2) { 1 } else { 1 + self.dice.below(size) };
+        place.marked = if self.dice.once_in(3) { 1 } else { 1 + self.dice.below(size) };
         if let (Some(attributes), Some(_), true) = (attributes, &place.class, self.dice.once_in(2)) {
             place.marked = 1;
             let Word { name, first } = attributes[self.dice.below(attributes.len())].clone();

@@ -10,8 +10,8 @@ mod smaller;
 pub use program::{Stimulus, configuration, shared_stimulus};
 pub use smaller::smaller;
 
-use crate::definition::expression::Value;
-use crate::definition::model::{Active, Class, Input, Kind, Net, Stop, Word};
+use crate::definition::expression::{Expression, Value};
+use crate::definition::model::{Active, Class, Input, Kind, Net, Statement, Stop, Target, Word};
 use crate::dice::Dice;
 
 /// The dice of a batch of nets.
@@ -97,9 +97,17 @@ impl<'d> Maker<'d> {
         let started = self.dice.once_in(3);
         let first = |value: i32| if started { value } else { 0 };
         let half = if started { 0.25 } else { 0. };
-        self.net.outputs = vec![int("y0", first(1)), int("y1", 0), int("w0", first(2)), int("w1", 0), real("r0", half)];
+        self.net.outputs = vec![
+            int("y0", first(1)),
+            int("y1", 0),
+            int("w0", first(2)),
+            int("w1", 0),
+            real("r0", half),
+            int("w2", first(3)),
+        ];
         self.net.outputs.extend([int("step", 0), real("at", 0.), int("step2", 0), real("at2", 0.)]);
-        self.net.locals = vec![int("kept", first(1)), real("l1", half), int("y2", 0), int("s1", 0), real("t1", 0.)];
+        self.net.locals =
+            vec![int("kept", first(1)), real("l1", half), int("y2", 0), int("s1", 0), real("t1", 0.), int("n1", 0)];
         self.net.inputs = ["x0", "x1", "x2"].map(|name| input(int(name, 0))).to_vec();
         self.net.inputs.push(input(real("v", 0.)));
         self.net.inputs.push(Input { size: Some(3), ..input(int("z", 0)) });
@@ -109,7 +117,7 @@ impl<'d> Maker<'d> {
         self.net.momentary.push("cmd".to_owned());
         let ints = [
             "x0", "x1", "x2", "z[1]", "z[2]", "z[3]", "cmd", "y0", "w0", "w1", "step", "step2", "kept", "y2", "s1",
-            "lim",
+            "w2", "n1", "lim",
         ];
         self.ints = ints.map(str::to_owned).to_vec();
         self.reals = ["v", "u[1]", "u[2]", "r0", "at", "at2", "l1", "t1", "par"].map(str::to_owned).to_vec();
@@ -169,6 +177,14 @@ impl<'d> Maker<'d> {
 
     /// Every output must be driven or written.
     fn outputs_without_a_writer(&mut self) {
+        if self.net.parts.iter().all(|part| part.bound("w2").next().is_none()) {
+            let value = Expression::Number(Value::Int(2));
+            let act = Statement { target: Target::Word("w2".to_owned()), value };
+            let first = self.net.boxes.iter_mut().find(|place| place.name == "begin");
+            if let Some(Kind::Operation(acts)) = first.map(|place| &mut place.kind) {
+                acts.push(act);
+            }
+        }
         for output in ["y0", "y1"] {
             if !self.net.is_driven(output) {
                 self.net.boxes[0].drives.push(output.to_owned());

@@ -20,11 +20,10 @@ impl Maker<'_> {
         for at in 0..1 + self.dice.below(2) {
             let class = self.some_class();
             let net = self.detail(&format!("{name}m{at}"), class.clone(), depth);
-            let outputs = if self.net.is_driven("y1") || self.dice.once_in(2) {
-                vec![Some("y1".to_owned()), None]
-            } else {
-                vec![None, None]
-            };
+            // What it writes goes to one word, by one part each.
+            let written = if at == 0 { "w2" } else { "n1" };
+            let outputs = [("y1", self.dice.once_in(2)), (written, !self.dice.once_in(3))];
+            let outputs = outputs.into_iter().map(|(name, is)| is.then(|| name.to_owned())).collect();
             let mut place = plain(&format!("M{at}"), Kind::Macro(self.net.parts.len()));
             place.class = class.map(|class| class.name);
             self.part(&format!("M{at}"), net, outputs);
