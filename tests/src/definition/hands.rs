@@ -22,6 +22,14 @@ fn command(instance: &Instance, at: usize) -> i32 {
     instance.net.mode.get(at).map_or(0, |name| instance.words[name].int())
 }
 
+/// A command is obeyed or refused in the scan in which it comes.
+pub(super) fn mind_the_end_of_a_stop(instance: &Instance, before: Mode, world: &World) {
+    let ends = before == Mode::Stopped && instance.mode != Mode::Stopped;
+    if ends && (1..=4).any(|at| command(instance, at) != 0) {
+        world.unsettled.set(Some("whether a command is seen that comes when a stop ends"));
+    }
+}
+
 /// Every command is cleared; those that the mode does not know are refused.
 pub(super) fn refuse_those_of_other_modes(instance: &mut Instance, world: &mut World) {
     let net = instance.net;

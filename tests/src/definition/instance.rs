@@ -229,8 +229,10 @@ impl<'n> Instance<'n> {
 
     /// Takes inputs, and with them the mode.
     pub(super) fn latch(&mut self, inputs: BTreeMap<String, Value>, around: Mode, world: &mut World) {
+        let before = self.mode;
         self.words.extend(inputs);
         self.mode = hands::mode(self, around);
+        hands::mind_the_end_of_a_stop(self, before, world);
         hands::refuse_those_of_other_modes(self, world);
     }
 
@@ -269,7 +271,10 @@ impl<'n> Instance<'n> {
             }
             Expression::Attribute(name, attribute) => match self.token_called(name, hand, world) {
                 Some(token) => Found::from(world.attribute(token, attribute)),
-                None => self.attribute_of_nothing(name, attribute),
+                None => {
+                    world.unsettled.set(Some("what the attributes of an empty box are"));
+                    self.attribute_of_nothing(name, attribute)
+                }
             },
             Expression::Cause(name) => Found::from(Value::Int(self.boxes[self.net.place(name)].cause)),
             Expression::Number(_) | Expression::Not(_) | Expression::Minus(_) | Expression::Two(..) => {
@@ -300,6 +305,9 @@ impl<'n> Instance<'n> {
         let in_hand = hand.iter().find(|(from, _)| from == name).map(|(_, token)| *token);
         let place = self.net.place(name);
         if in_hand.is_none() {
+            if self.net.part_of(place).is_some() {
+                world.unsettled.set(Some("whether an attribute of a macro is that of its token as it entered"));
+            }
             self.mind_new_tokens(place, world);
         }
         in_hand.or_else(|| world.in_order(self.net, place, &self.start[place]).first().copied())

@@ -138,6 +138,34 @@ impl Maker<'_> {
         Generate { size, order: self.order(with_class), when, begins: self.statements(1, own) }
     }
 
+    /// Tokens with attributes that wait in an order, and a gate that chooses among them.
+    pub(super) fn queue(&mut self) {
+        let Some(class) = self.net.classes.first().cloned() else { return };
+        let mut place = plain("queue", Kind::Capacity(Some(2 + self.dice.below(3)), self.order(true)));
+        place.class = Some(class.name.clone());
+        place.marked = self.dice.below(3);
+        let mut source = plain("new", Kind::State);
+        source.class = Some(class.name);
+        self.net.boxes.extend([place, source]);
+        let own = ["new".to_owned()];
+        let value = self.ints[self.dice.below(self.ints.len())].clone();
+        let set = Statement { target: Target::Attribute("new".to_owned(), "a".to_owned()), value: word(&value) };
+        let begins = vec![set, self.statement(&own)];
+        let generate = Generate { size: 1, order: Order::Fifo, when: self.condition(&[]), begins };
+        if let Some(source) = self.net.boxes.last_mut() {
+            source.kind = Kind::Generate(generate);
+        }
+        let to = |from: &str, to: &[&str], condition| Gate {
+            name: format!("{from}s"),
+            before: vec![(from.to_owned(), 1)],
+            after: to.iter().map(|to| ((*to).to_owned(), 1)).collect(),
+            rules: vec![Rule { condition, ..Rule::default() }],
+            ..Gate::default()
+        };
+        let condition = self.condition(&["queue".to_owned()]);
+        self.net.gates.extend([to("new", &["queue"], None), to("queue", &[], Some(condition))]);
+    }
+
     /// A row of boxes through which tokens go, written as repeated lines.
     pub(super) fn row(&mut self) {
         self.repetitions += 1;

@@ -20,11 +20,21 @@ impl Maker<'_> {
         }
         let asked: Vec<String> = gate.before.iter().chain(&gate.reads).map(|(name, _)| name.clone()).collect();
         let asked: Vec<String> = asked.into_iter().filter(|name| !name.contains('.')).collect();
+        let asked = self.with_another(asked);
         if self.dice.once_in(3) {
             gate.permits = (0..1 + self.dice.below(2)).map(|_| self.condition(&asked)).collect();
         }
         self.rules(&mut gate, &asked);
         self.net.gates.push(gate);
+    }
+
+    /// Boxes whose attributes a gate speaks of, perhaps with one from which it takes nothing.
+    fn with_another(&mut self, mut asked: Vec<String>) -> Vec<String> {
+        let other = self.net.boxes[self.dice.below(self.net.boxes.len())].clone();
+        if other.class.is_some() && !asked.contains(&other.name) && self.dice.once_in(4) {
+            asked.push(other.name);
+        }
+        asked
     }
 
     /// Boxes, each once, with weights where tokens are plain.

@@ -68,9 +68,12 @@ pub fn net(dice: &mut Dice, name: &str, wanted: Wanted) -> Net {
     if maker.dice.once_in(2) {
         maker.row();
     }
+    if maker.dice.once_in(2) {
+        maker.queue();
+    }
     maker.first_operation();
     if maker.dice.once_in(2) {
-        maker.inside(name, 2);
+        maker.inside(name, wanted.modes);
     }
     let gates = 3 + maker.dice.below(10 + many);
     (0..gates).for_each(|at| maker.gate(&format!("g{at}")));
@@ -142,7 +145,9 @@ impl<'d> Maker<'d> {
             self.net.mode.push((*name).to_owned());
         }
         self.ints.push("mode".to_owned());
-        for output in ["y0", "w0", "r0"] {
+        let outputs = self.net.outputs.clone();
+        let known = |name: &&str| outputs.iter().any(|word| word.name == *name);
+        for output in ["y0", "w0", "r0"].into_iter().filter(|name| known(name)) {
             let stop = match (self.dice.roll(3), output) {
                 (0, _) => continue,
                 (1, _) => Stop::Hold,

@@ -8,9 +8,9 @@ use crate::definition::model::{Abort, Class, Gate, Kind, Net, Part, Route, Rule}
 
 impl Maker<'_> {
     /// Macros and modules, some in more than one instance.
-    pub(super) fn inside(&mut self, name: &str, depth: usize) {
+    pub(super) fn inside(&mut self, name: &str, modes: bool) {
         if self.dice.once_in(2) {
-            let net = self.device(&format!("{name}dev"));
+            let net = self.device(&format!("{name}dev"), modes);
             for at in 0..1 + self.dice.below(2) {
                 let outputs = vec![Some("y2".to_owned()), Some("s1".to_owned()), Some("t1".to_owned())];
                 let outputs = if at == 0 { outputs } else { vec![None, None, None] };
@@ -19,7 +19,7 @@ impl Maker<'_> {
         }
         for at in 0..1 + self.dice.below(2) {
             let class = self.some_class();
-            let net = self.detail(&format!("{name}m{at}"), class.clone(), depth);
+            let net = self.detail(&format!("{name}m{at}"), class.clone(), 2);
             // What it writes goes to one word, by one part each.
             let written = if at == 0 { "w2" } else { "n1" };
             let outputs = [("y1", self.dice.once_in(2)), (written, !self.dice.once_in(3))];
@@ -74,6 +74,10 @@ impl Maker<'_> {
     }
 
     fn wire(&mut self, like: Value) -> Expression {
+        if let (Value::Int(_), true) = (like, self.dice.once_in(4)) {
+            let name = self.net.boxes[self.dice.below(self.net.boxes.len())].name.clone();
+            return Expression::Tokens(name);
+        }
         let names = match like {
             Value::Int(_) => &self.ints,
             Value::Real(_) => &self.reals,
@@ -113,11 +117,14 @@ impl Maker<'_> {
     }
 
     /// The net of a module: a small random one.
-    fn device(&mut self, name: &str) -> Net {
+    fn device(&mut self, name: &str, modes: bool) -> Net {
         let mut maker = Maker::small(self.dice, name);
         maker.net.outputs = vec![int("y0", 0), int("step", 0), real("at", 0.)];
         maker.drivable.push("y0".to_owned());
         maker.ints.extend(["y0", "step"].map(str::to_owned));
+        if modes && maker.dice.once_in(2) {
+            maker.operator();
+        }
         (0..2 + maker.dice.below(3)).for_each(|at| maker.place(&format!("p{at}")));
         (0..2 + maker.dice.below(3)).for_each(|at| maker.gate(&format!("g{at}")));
         maker.active("step", "at");
