@@ -25,7 +25,7 @@ fn traced(folder: &Path, net: &Net, stimulus: &Stimulus) -> Result<(String, Stri
     command.arg("--stimulus").arg(folder.join("stimulus.csv")).args(["--steps", &stimulus.scans.len().to_string()]);
     let output = run(&mut command);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    if !output.status.success() {
+    if !output.status.success() || told.contains("set refused") {
         return Err(told);
     }
     Ok((String::from_utf8_lossy(&output.stdout).into_owned(), told))

@@ -1,6 +1,7 @@
 //! The gate phase: every ABORT, then gates by priority.
 
 use super::expression::Expression;
+use super::hands;
 use super::instance::{Arrival, Hand, Instance, Mode, NOBODY, Rank};
 use super::model::{Gate, Kind, Net, Rule};
 use super::statements::run;
@@ -44,14 +45,23 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
     instance.filled[to] += 1;
 }
 
-/// Gates that can fire do.
-pub(super) fn gates(instance: &mut Instance, world: &mut World) {
+/// Gates that can fire do; in manual mode the operator's commands are obeyed instead. Then the same in the nets inside.
+pub(super) fn gates(instance: &mut Instance, holder_is_marked: bool, world: &mut World) {
+    let net = instance.net;
     if are_tried(instance.mode) {
-        for gate in in_order(instance.net) {
+        for gate in in_order(net) {
             attempt(instance, gate, false, world);
         }
     }
-    instance.parts.iter_mut().for_each(|part| gates(part, world));
+    if instance.mode == Mode::Manual {
+        hands::commands(instance, holder_is_marked, world);
+    }
+    for at in 0..net.parts.len() {
+        let holder = net.boxes.iter().position(|place| matches!(place.kind, Kind::Macro(part) if part == at));
+        let is_there = |place: usize| instance.start[place].iter().any(|token| !instance.taken.contains(token));
+        let marked = holder.is_none_or(is_there);
+        gates(&mut instance.parts[at], marked, world);
+    }
 }
 
 /// By priority, then in the order of the file.

@@ -23,8 +23,8 @@ fn command(instance: &Instance, at: usize) -> i32 {
 }
 
 /// A command is obeyed or refused in the scan in which it comes.
-pub(super) fn mind_the_end_of_a_stop(instance: &Instance, before: Mode, world: &World) {
-    let ends = before == Mode::Stopped && instance.mode != Mode::Stopped;
+pub(super) fn mind_the_end_of_a_stop(instance: &Instance, world: &World) {
+    let ends = instance.before == Mode::Stopped && instance.mode != Mode::Stopped;
     if ends && (1..=4).any(|at| command(instance, at) != 0) {
         world.unsettled.set(Some("whether a command is seen that comes when a stop ends"));
     }
@@ -46,29 +46,16 @@ pub(super) fn refuse_those_of_other_modes(instance: &mut Instance, world: &mut W
     }
 }
 
-/// Fire, put, take, in this order; those that a net inside has of its own too.
-pub(super) fn commands(instance: &mut Instance, world: &mut World) {
-    commands_of(instance, true, world);
-}
-
-fn commands_of(instance: &mut Instance, holder_is_marked: bool, world: &mut World) {
-    if instance.mode == Mode::Manual {
-        for at in 2..=4 {
-            let number = command(instance, at);
-            if number != 0 {
-                world.note("command in manual mode");
-                let done =
-                    usize::try_from(number).is_ok_and(|number| obey(instance, at, number - 1, holder_is_marked, world));
-                world.faults.push(if done { Fault::Forced } else { Fault::Refused });
-            }
+/// Fire, put, take, in this order.
+pub(super) fn commands(instance: &mut Instance, holder_is_marked: bool, world: &mut World) {
+    for at in 2..=4 {
+        let number = command(instance, at);
+        if number != 0 {
+            world.note("command in manual mode");
+            let number = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
+            let done = number.is_some_and(|number| obey(instance, at, number, holder_is_marked, world));
+            world.faults.push(if done { Fault::Forced } else { Fault::Refused });
         }
-    }
-    let net = instance.net;
-    for at in 0..net.parts.len() {
-        let holder = net.boxes.iter().position(|place| matches!(place.kind, Kind::Macro(part) if part == at));
-        let marked =
-            holder.is_none_or(|place| instance.start[place].iter().any(|token| !instance.taken.contains(token)));
-        commands_of(&mut instance.parts[at], marked, world);
     }
 }
 

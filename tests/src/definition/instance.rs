@@ -76,6 +76,8 @@ pub(super) struct Instance<'n> {
     pub(super) shown: BTreeMap<String, Value>,
     pub(super) boxes: Vec<BoxState>,
     pub(super) mode: Mode,
+    /// The mode in the scan before.
+    pub(super) before: Mode,
     /// Nanoseconds that it has run.
     pub(super) now: i64,
     /// The marking at the start of the phase.
@@ -120,8 +122,7 @@ impl<'n> Run<'n> {
         boxes::phase(root, world);
         root.snapshot();
         gates::aborts(root, world);
-        gates::gates(root, world);
-        hands::commands(root, world);
+        gates::gates(root, true, world);
         arrivals::arrive(root, world);
         outputs::follow(root, world);
         root.tick(world);
@@ -173,6 +174,7 @@ impl<'n> Instance<'n> {
             shown: net.outputs.iter().map(|word| (word.name.clone(), word.first)).collect(),
             boxes: net.boxes.iter().map(|_| BoxState { rank: NOBODY, ready: true, ..BoxState::default() }).collect(),
             mode: Mode::Automatic,
+            before: Mode::Automatic,
             now: 0,
             start: Vec::new(),
             taken: BTreeSet::new(),
@@ -229,10 +231,10 @@ impl<'n> Instance<'n> {
 
     /// Takes inputs, and with them the mode.
     pub(super) fn latch(&mut self, inputs: BTreeMap<String, Value>, around: Mode, world: &mut World) {
-        let before = self.mode;
+        self.before = self.mode;
         self.words.extend(inputs);
         self.mode = hands::mode(self, around);
-        hands::mind_the_end_of_a_stop(self, before, world);
+        hands::mind_the_end_of_a_stop(self, world);
         hands::refuse_those_of_other_modes(self, world);
     }
 

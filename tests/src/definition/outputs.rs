@@ -9,6 +9,7 @@ use super::tokens::World;
 pub(super) fn follow(instance: &mut Instance, world: &World) {
     instance.parts.iter_mut().for_each(|part| follow(part, world));
     if instance.mode == Mode::Stopped {
+        mind_what_parts_write(instance, world);
         stopped(instance);
         return;
     }
@@ -18,6 +19,16 @@ pub(super) fn follow(instance: &mut Instance, world: &World) {
     blocked(instance);
     let net = instance.net;
     instance.shown = net.outputs.iter().map(|word| (word.name.clone(), instance.words[&word.name])).collect();
+}
+
+/// Written outputs are after a stop what they were before it.
+fn mind_what_parts_write(instance: &Instance, world: &World) {
+    let runs = |inside: &Instance| inside.mode != Mode::Stopped || inside.before != Mode::Stopped;
+    let mut parts = instance.net.parts.iter().zip(&instance.parts);
+    if parts.any(|(part, inside)| !part.net.mode.is_empty() && runs(inside) && part.outputs.iter().any(Option::is_some))
+    {
+        world.unsettled.set(Some("what an output is that a net inside writes while the net around it is stopped"));
+    }
 }
 
 /// What is not named is 0; that of ACTIVE stays.
@@ -38,14 +49,15 @@ fn stopped(instance: &mut Instance) {
     }
 }
 
-/// Values that nets inside write, when they do; those of ACTIVE always.
+/// Values that nets inside write, when they do; those of ACTIVE always, and those that a stop changes.
 fn from_parts(instance: &mut Instance) {
     let net = instance.net;
     for (part, inside) in net.parts.iter().zip(&instance.parts) {
         for (output, to) in part.net.outputs.iter().zip(&part.outputs) {
             let Some(to) = to else { continue };
             let is_active = part.net.active.iter().any(|active| active.fills(&output.name));
-            if is_active || inside.touched.contains(&output.name) {
+            let stops = !part.net.mode.is_empty() && [inside.before, inside.mode].contains(&Mode::Stopped);
+            if is_active || stops || inside.touched.contains(&output.name) {
                 instance.words.insert(to.clone(), inside.shown[&output.name].like(instance.words[to]));
                 instance.touched.insert(to.clone());
             }

@@ -72,7 +72,12 @@ impl Maker<'_> {
         if !self.net.parts.is_empty() && self.dice.once_in(2) {
             return vec![(self.box_inside(), 1)];
         }
-        self.arcs(1)
+        let mut arcs = self.arcs(1);
+        for (name, weight) in &mut arcs {
+            let room = self.net.room(self.net.place(name)).unwrap_or(3);
+            *weight = 1 + self.dice.below(room.min(3));
+        }
+        arcs
     }
 
     fn class_name(&self, place: &str) -> Option<String> {

@@ -19,7 +19,7 @@ impl Maker<'_> {
         }
         for at in 0..1 + self.dice.below(2) {
             let class = self.some_class();
-            let net = self.detail(&format!("{name}m{at}"), class.clone(), 2);
+            let net = self.detail(&format!("{name}m{at}"), class.clone(), modes, 2);
             // What it writes goes to one word, by one part each.
             let written = if at == 0 { "w2" } else { "n1" };
             let outputs = [("y1", self.dice.once_in(2)), (written, !self.dice.once_in(3))];
@@ -135,13 +135,16 @@ impl Maker<'_> {
     }
 
     /// The net of a macro: a way from the entry to the exit, and what stands beside it.
-    fn detail(&mut self, name: &str, class: Option<Class>, depth: usize) -> Net {
+    fn detail(&mut self, name: &str, class: Option<Class>, modes: bool, depth: usize) -> Net {
         let mut maker = Maker::small(self.dice, name);
         maker.net.outputs = vec![int("y1", 0), int("w1", 0)];
         maker.drivable.push("y1".to_owned());
         maker.writable.push(int("w1", 0));
         maker.ints.extend(["y1", "w1"].map(str::to_owned));
         maker.net.classes.extend(class.clone());
+        if modes && maker.dice.once_in(3) {
+            maker.operator();
+        }
         let named = class.as_ref().map(|class| class.name.clone());
         let mut entry = plain("come", Kind::Entry);
         entry.class = named.clone();
@@ -155,12 +158,16 @@ impl Maker<'_> {
             }
         }
         if depth > 1 && maker.dice.once_in(3) {
-            let inner = maker.detail(&format!("{name}n"), class, depth - 1);
+            let inner = maker.detail(&format!("{name}n"), class, false, depth - 1);
             let mut place = plain("I", Kind::Macro(0));
             place.class = named.clone();
             maker.part("I", inner, vec![Some("y1".to_owned()), None]);
             maker.net.boxes.push(place);
             maker.abort();
+        }
+        if depth > 1 && maker.dice.once_in(3) {
+            let beside = maker.device(&format!("{name}b"), false);
+            maker.part("B", beside, vec![Some("y1".to_owned()), None, None]);
         }
         let mut exit = plain("gone", Kind::Exit);
         exit.class = named;
