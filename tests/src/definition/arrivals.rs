@@ -16,7 +16,7 @@ pub(super) fn arrive(instance: &mut Instance, world: &mut World) {
         if let Some(part) = instance.net.part_of(place) {
             let inside = &mut instance.parts[part];
             if let Some(entry) = inside.net.entry() {
-                world.note("macro entered");
+                world.note("a macro entered");
                 let copy = world.copy(token);
                 inside.arriving.push(Arrival { place: entry, token: copy, rank });
             }

@@ -9,7 +9,9 @@ use super::tokens::World;
 
 /// The boxes of a net in the order of the file, then those of its parts.
 pub(super) fn phase(instance: &mut Instance, world: &mut World) {
-    if instance.mode != Mode::Stopped {
+    if instance.mode == Mode::Stopped {
+        stand_still(instance);
+    } else {
         (0..instance.boxes.len()).for_each(|place| act(instance, place, world));
     }
     let net = instance.net;
@@ -26,6 +28,19 @@ pub(super) fn phase(instance: &mut Instance, world: &mut World) {
             state.excited = !state.tokens.is_empty() && exit.is_some_and(|exit| !exit.tokens.is_empty());
         }
     });
+}
+
+/// A box that asks for nothing but tokens is excited in a stopped net too, as a net around it may see.
+fn stand_still(instance: &mut Instance) {
+    for (place, state) in instance.net.boxes.iter().zip(&mut instance.boxes) {
+        state.excited = match &place.kind {
+            Kind::State | Kind::Entry | Kind::Exit | Kind::Capacity(..) | Kind::Generate(_) => !state.tokens.is_empty(),
+            Kind::Count(size) => state.tokens.len() == *size,
+            Kind::Time(_) | Kind::Operation(_) | Kind::Signal(_) | Kind::Process(_) | Kind::Macro(_) => {
+                state.excited && !state.tokens.is_empty()
+            }
+        };
+    }
 }
 
 fn act(instance: &mut Instance, place: usize, world: &mut World) {
@@ -108,7 +123,7 @@ fn go_on(instance: &mut Instance, place: usize, process: &Process, world: &mut W
     let rank = state.rank;
     run(instance, &process.after, rank, &hand, world);
     let state = &mut instance.boxes[place];
-    world.note(if state.ready { "process complete" } else { "process waits on" });
+    world.note(if state.ready { "a process complete" } else { "a process that waits on" });
     state.complete = state.ready;
     state.timer = instance.now;
 }
@@ -134,7 +149,7 @@ fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut 
     } else if instance.boxes[place].waits {
         world.faults.push(Fault::Lost);
     } else {
-        world.note("edge waits");
+        world.note("an edge that waits");
         instance.boxes[place].waits = true;
     }
 }
@@ -144,7 +159,7 @@ fn has_room(instance: &Instance, place: usize, generate: &Generate) -> bool {
 }
 
 fn add(instance: &mut Instance, place: usize, generate: &Generate, world: &mut World) {
-    world.note("token made");
+    world.note("a token made");
     let described = &instance.net.boxes[place];
     let class = described.class.as_ref().and_then(|class| instance.net.class(class));
     let token = world.new_token(class);

@@ -38,7 +38,7 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
         return;
     }
     let rank = NOBODY;
-    world.note("abort");
+    world.note("a macro aborted");
     instance.take_all(place);
     run(instance, &abort.acts, rank, &[(net.boxes[place].name.clone(), token)], world);
     instance.put(to, token, rank);
@@ -90,7 +90,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     }
     let permits = |term: &Expression| instance.holds(term, &hand, world);
     if let (false, Some(term)) = (forced, gate.permits.iter().position(|term| !permits(term))) {
-        world.note("permissive");
+        world.note("a permissive that holds");
         if instance.held_back == 0 {
             instance.held_back = number_of(instance.net, at, term);
         }
@@ -104,29 +104,29 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
 
 fn note_firing(instance: &Instance, gate: &Gate, rule: &Rule, hand: &Hand, world: &World) {
     let net = instance.net;
-    world.note("firing");
+    world.note("a firing");
     if !std::ptr::eq(rule, &gate.rules[0]) {
-        world.note("firing by a later rule");
+        world.note("a firing by a later rule");
     }
     if !gate.reads.is_empty() {
-        world.note("firing with READ");
+        world.note("a firing with READ");
     }
     for (name, weight) in &gate.before {
         let place = net.place(name);
         if net.part_of(place).is_some() {
-            world.note("macro left");
+            world.note("a macro left");
         }
         if matches!(net.boxes[place].kind, Kind::Count(_)) {
             world.note("COUNT emptied");
         }
         if *weight > 1 {
-            world.note("firing with a weight");
+            world.note("a firing with a weight");
         }
         if net.boxes[place].class.is_some() {
-            world.note("token with attributes taken");
+            world.note("a token with attributes taken");
             let first = instance.to_take(place, world).first().copied();
             if hand.iter().any(|(from, token)| from == name && Some(*token) != first) {
-                world.note("token taken that is not the first");
+                world.note("a token taken that is not the first");
             }
         }
     }

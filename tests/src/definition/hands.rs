@@ -51,7 +51,7 @@ pub(super) fn commands(instance: &mut Instance, holder_is_marked: bool, world: &
     for at in 2..=4 {
         let number = command(instance, at);
         if number != 0 {
-            world.note("command in manual mode");
+            world.note("a command in manual mode");
             let number = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
             let done = number.is_some_and(|number| obey(instance, at, number, holder_is_marked, world));
             world.faults.push(if done { Fault::Forced } else { Fault::Refused });

@@ -47,6 +47,7 @@ fn write(instance: &mut Instance, name: &str, value: Value, reads_itself: bool, 
                 world.unsettled.set(Some("whether a write differs from one that was counted on since"));
             }
             if !before.same(value) {
+                world.note("two different writes");
                 world.faults.push(Fault::Conflict);
             }
             // Of equal ones that which came first.

@@ -148,10 +148,10 @@ impl Maker<'_> {
         source.class = Some(class.name);
         self.net.boxes.extend([place, source]);
         let own = ["new".to_owned()];
-        let value = self.ints[self.dice.below(self.ints.len())].clone();
-        let set = Statement { target: Target::Attribute("new".to_owned(), "a".to_owned()), value: word(&value) };
-        let begins = vec![set, self.statement(&own)];
-        let generate = Generate { size: 1, order: Order::Fifo, when: self.condition(&[]), begins };
+        let [when, value, wanted] = std::array::from_fn(|_| word(["x0", "x1", "z[1]", "z[2]"][self.dice.below(4)]));
+        let attribute = |place: &str| Target::Attribute(place.to_owned(), "a".to_owned());
+        let begins = vec![Statement { target: attribute("new"), value }, self.statement(&own)];
+        let generate = Generate { size: 1, order: Order::Fifo, when, begins };
         if let Some(source) = self.net.boxes.last_mut() {
             source.kind = Kind::Generate(generate);
         }
@@ -162,7 +162,8 @@ impl Maker<'_> {
             rules: vec![Rule { condition, ..Rule::default() }],
             ..Gate::default()
         };
-        let condition = self.condition(&["queue".to_owned()]);
+        let asked = Expression::Attribute("queue".to_owned(), "a".to_owned());
+        let condition = two(Operator::Equal, asked, wanted);
         self.net.gates.extend([to("new", &["queue"], None), to("queue", &[], Some(condition))]);
     }
 
