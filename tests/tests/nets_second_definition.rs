@@ -4,7 +4,7 @@
 
 use pcl2_tests::definition::expression::Value;
 use pcl2_tests::definition::model::Net;
-use pcl2_tests::definition::{Fault, Run, text};
+use pcl2_tests::definition::{Fault, Run, Unsettled, text};
 use pcl2_tests::random_nets::{Stimulus, Wanted, dice, net, smaller};
 use pcl2_tests::{pcl2, run};
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ const PERIOD: i64 = 250_000_000;
 struct Seen {
     scans: usize,
     happened: BTreeMap<&'static str, usize>,
-    unsettled: BTreeMap<&'static str, usize>,
+    unsettled: BTreeMap<Unsettled, usize>,
 }
 
 /// What the embedded engine gives: the trace, and what it tells of faults. An error where it refuses the net or a value.

@@ -6,6 +6,7 @@ use super::instance::{Hand, Instance, Mode, NOBODY};
 use super::model::{Generate, Kind, Process, Statement};
 use super::statements::run;
 use super::tokens::World;
+use super::unsettled::Unsettled;
 
 /// The boxes of a net in the order of the file, then those of its parts.
 pub(super) fn phase(instance: &mut Instance, world: &mut World) {
@@ -93,7 +94,7 @@ fn has_passed(instance: &Instance, time: &Expression, since: i64, hand: &Hand, w
     let found = time.value(&|operand| instance.find(operand, hand, world));
     let nanoseconds = found.value.real() * 1e9;
     if found.bad {
-        world.unsettled.set(Some("whether a time that is bad is over"));
+        world.mind(Unsettled::BadTime);
     }
     !found.bad && (instance.now - since) as f64 >= nanoseconds.round()
 }
@@ -142,7 +143,7 @@ fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut 
         return;
     }
     if got_room {
-        world.unsettled.set(Some("whether an edge is lost that comes when the one before has just got its room"));
+        world.mind(Unsettled::EdgeAfterRoom);
     }
     if has_room(instance, place, generate) {
         add(instance, place, generate, world);

@@ -6,6 +6,7 @@ use super::instance::{Arrival, Hand, Instance, Mode, NOBODY, Rank};
 use super::model::{Gate, Kind, Net, Rule};
 use super::statements::run;
 use super::tokens::{Token, World};
+use super::unsettled::Unsettled;
 
 /// Whether gates are tried in this scan.
 fn are_tried(mode: Mode) -> bool {
@@ -30,7 +31,7 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
     let to = net.place(&abort.to);
     let emptied = instance.start[place].iter().any(|token| instance.taken.contains(token));
     if emptied && instance.holds(&abort.condition, &[], world) {
-        world.unsettled.set(Some("an ABORT inside a macro that was just emptied"));
+        world.mind(Unsettled::AbortInside);
     }
     let marked = instance.start[place].iter().find(|token| !instance.taken.contains(*token)).copied();
     let Some(token) = marked else { return };
@@ -234,7 +235,7 @@ impl Instance<'_> {
         for (name, _) in gate.before.iter().filter(|(name, _)| gate.after.iter().any(|(after, _)| after == name)) {
             let place = self.net.place(name);
             if self.net.part_of(place).is_some() && !self.has_room(place, 0, 1) {
-                world.unsettled.set(Some("whether a macro's token leaves and enters while another is inside"));
+                world.mind(Unsettled::EntryBesideOthers);
             }
         }
     }

@@ -5,6 +5,7 @@ use super::gates::attempt;
 use super::instance::{Instance, Mode, NOBODY};
 use super::model::{Kind, Net};
 use super::tokens::World;
+use super::unsettled::Unsettled;
 
 /// The mode of a net: its own, else that of the net around it.
 pub(super) fn mode(instance: &Instance, around: Mode) -> Mode {
@@ -26,7 +27,7 @@ fn command(instance: &Instance, at: usize) -> i32 {
 pub(super) fn mind_the_end_of_a_stop(instance: &Instance, world: &World) {
     let ends = instance.before == Mode::Stopped && instance.mode != Mode::Stopped;
     if ends && (1..=4).any(|at| command(instance, at) != 0) {
-        world.unsettled.set(Some("whether a command is seen that comes when a stop ends"));
+        world.mind(Unsettled::CommandAfterStop);
     }
 }
 

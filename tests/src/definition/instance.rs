@@ -5,6 +5,7 @@ use super::arrivals;
 use super::expression::{Expression, Found, Value};
 use super::model::{Input, Net, Part, Word};
 use super::tokens::{Token, World};
+use super::unsettled::Unsettled;
 use super::{boxes, gates, hands, outputs};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -132,9 +133,8 @@ impl<'n> Run<'n> {
         (self.row(), self.world.faults.clone())
     }
 
-    /// What happened so far of which the page and the player do not say the same, or the page says nothing: from there on
-    /// a run proves nothing.
-    pub fn unsettled(&self) -> Option<&'static str> {
+    /// What came up so far that is not settled.
+    pub fn unsettled(&self) -> Option<Unsettled> {
         self.world.unsettled.get()
     }
 
@@ -262,7 +262,7 @@ impl<'n> Instance<'n> {
         match operand {
             Expression::Word(name) => {
                 if self.cleared.contains(name) && self.net.momentary.contains(name) {
-                    world.unsettled.set(Some("whether a command is seen in the scan in which a gate cleared it"));
+                    world.mind(Unsettled::ClearedCommand);
                 }
                 Found::from(self.words[name])
             }
@@ -274,7 +274,7 @@ impl<'n> Instance<'n> {
             Expression::Attribute(name, attribute) => match self.token_called(name, hand, world) {
                 Some(token) => Found::from(world.attribute(token, attribute)),
                 None => {
-                    world.unsettled.set(Some("what the attributes of an empty box are"));
+                    world.mind(Unsettled::EmptyBox);
                     self.attribute_of_nothing(name, attribute)
                 }
             },
@@ -308,7 +308,7 @@ impl<'n> Instance<'n> {
         let place = self.net.place(name);
         if in_hand.is_none() {
             if self.net.part_of(place).is_some() {
-                world.unsettled.set(Some("whether an attribute of a macro is that of its token as it entered"));
+                world.mind(Unsettled::MacroFromAfar);
             }
             self.mind_new_tokens(place, world);
         }
@@ -318,7 +318,7 @@ impl<'n> Instance<'n> {
     /// What a name means is the marking at the start of the phase.
     fn mind_new_tokens(&self, place: usize, world: &World) {
         if self.boxes[place].tokens != self.start[place] {
-            world.unsettled.set(Some("whether a box phase sees a token that was made in it"));
+            world.mind(Unsettled::NewToken);
         }
     }
 

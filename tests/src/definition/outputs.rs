@@ -4,6 +4,7 @@ use super::expression::Value;
 use super::instance::{Instance, Mode};
 use super::model::Stop;
 use super::tokens::World;
+use super::unsettled::Unsettled;
 
 /// For the nets inside, then for the one around them.
 pub(super) fn follow(instance: &mut Instance, world: &World) {
@@ -27,7 +28,7 @@ fn mind_what_parts_write(instance: &Instance, world: &World) {
     let mut parts = instance.net.parts.iter().zip(&instance.parts);
     if parts.any(|(part, inside)| !part.net.mode.is_empty() && runs(inside) && part.outputs.iter().any(Option::is_some))
     {
-        world.unsettled.set(Some("what an output is that a net inside writes while the net around it is stopped"));
+        world.mind(Unsettled::WrittenMeanwhile);
     }
 }
 

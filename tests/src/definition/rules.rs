@@ -3,6 +3,7 @@
 use super::instance::{Hand, Instance};
 use super::model::{Gate, Kind, Rule};
 use super::tokens::{Token, World};
+use super::unsettled::Unsettled;
 
 impl Instance<'_> {
     /// Tokens that a gate may take from a box, in the order in which the box gives them out.
@@ -52,7 +53,7 @@ impl Instance<'_> {
             let place = self.net.place(name);
             let taken = self.start[place].iter().any(|token| self.taken.contains(token));
             if taken && self.net.boxes[place].class.is_some() {
-                world.unsettled.set(Some("whether a condition sees a token in a READ box that another gate took"));
+                world.mind(Unsettled::ReadOfTaken);
             }
         }
     }
@@ -64,7 +65,7 @@ impl Instance<'_> {
             let asked = rule.condition.iter().chain(&gate.permits).any(|condition| condition.asks(name));
             let other = self.start[place].first().is_some_and(|own| !world.are_alike(*own, *token));
             if self.net.part_of(place).is_some() && asked && other {
-                world.unsettled.set(Some("whether a condition sees a macro's token as it entered"));
+                world.mind(Unsettled::TokenOfMacro);
             }
         }
     }

@@ -5,6 +5,7 @@ use super::expression::Value;
 use super::instance::{Instance, Rank};
 use super::model::{Statement, Target};
 use super::tokens::{Token, World};
+use super::unsettled::Unsettled;
 
 /// Runs statements one after the other; each sees what those before it wrote.
 pub(super) fn run(
@@ -44,7 +45,7 @@ fn write(instance: &mut Instance, name: &str, value: Value, reads_itself: bool, 
     if is_output && !reads_itself {
         if let Some((before, whose)) = instance.written.get(name).copied() {
             if instance.counted.contains(name) {
-                world.unsettled.set(Some("whether a write differs from one that was counted on since"));
+                world.mind(Unsettled::WriteAfterCount);
             }
             if !before.same(value) {
                 world.note("two different writes");

@@ -3,6 +3,7 @@
 use super::Fault;
 use super::expression::Value;
 use super::model::{Class, Kind, Net, Order};
+use super::unsettled::Unsettled;
 use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ pub(super) struct World {
     /// Faults of this scan.
     pub(super) faults: Vec<Fault>,
     /// What happened in this run that is not settled.
-    pub(super) unsettled: Cell<Option<&'static str>>,
+    pub(super) unsettled: Cell<Option<Unsettled>>,
     /// How often what happened.
     pub(super) happened: RefCell<BTreeMap<&'static str, usize>>,
     /// Nanoseconds from scan to scan.
@@ -34,6 +35,11 @@ impl World {
             happened: RefCell::default(),
             period,
         }
+    }
+
+    /// Something came up that is not settled.
+    pub(super) fn mind(&self, what: Unsettled) {
+        self.unsettled.set(Some(what));
     }
 
     /// Counts what happens, so that a comparison can tell what it has seen.

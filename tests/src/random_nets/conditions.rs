@@ -60,7 +60,7 @@ impl Maker<'_> {
 
     fn int(&mut self, depth: usize, asked: &[String]) -> Expression {
         match self.dice.roll(if depth == 0 { 7 } else { 9 }) {
-            0..3 => word(&self.any(&self.ints.clone()).to_owned()),
+            0..3 => word(self.any(&self.ints.clone())),
             3 => self.tokens(),
             4 => number(self.dice.roll(4) as i32),
             5 => self.int_attribute(asked).unwrap_or_else(|| number(2)),
@@ -74,10 +74,10 @@ impl Maker<'_> {
 
     fn real(&mut self, depth: usize, asked: &[String]) -> Expression {
         match self.dice.roll(if depth == 0 { 6 } else { 9 }) {
-            0..3 => word(&self.any(&self.reals.clone()).to_owned()),
+            0..3 => word(self.any(&self.reals.clone())),
             3 => Expression::Number(Value::Real([0., 0.3, 0.5, 1., 2.5][self.dice.below(5)])),
             4 => self.real_attribute(asked).unwrap_or_else(|| word("par")),
-            5 => Expression::Minus(Box::new(word(&self.any(&self.reals.clone()).to_owned()))),
+            5 => Expression::Minus(Box::new(word(self.any(&self.reals.clone())))),
             6 => two(Operator::Over, self.real(depth - 1, asked), self.real(depth - 1, asked)),
             7 => two(Operator::Times, self.real(depth - 1, asked), self.int(depth - 1, asked)),
             _ => {
