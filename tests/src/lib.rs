@@ -2,6 +2,7 @@
 
 pub mod cases;
 pub mod compilers;
+pub mod definition;
 pub mod dice;
 pub mod expect;
 pub mod fences;

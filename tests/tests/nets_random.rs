@@ -2,26 +2,27 @@
 //!
 //! `PCL2_RANDOM_NETS` is how many nets are compared; `cargo xtask nets` sets it for the long form.
 
-use pcl2_tests::random_nets::{INNER, configuration, dice, net, stimulus};
+use pcl2_tests::definition::model::Net;
+use pcl2_tests::definition::text;
+use pcl2_tests::random_nets::{Wanted, configuration, dice, net, shared_stimulus};
 use pcl2_tests::{pcl2, run};
 use std::fs;
 use std::path::Path;
 
 /// Nets of one program.
 const BATCH: usize = 50;
-const SCANS: u64 = 1000;
+const SCANS: usize = 1000;
 
 fn batch(folder: &Path, seed: u64) {
     let mut dice = dice(seed);
-    for (name, text) in INNER {
+    // Tokens with attributes make a net a table.
+    let wanted = Wanted { classes: seed % 2 == 1, modes: true };
+    let nets: Vec<Net> = (0..BATCH).map(|i| net(&mut dice, &format!("r{i}"), wanted)).collect();
+    for (name, text) in nets.iter().flat_map(text::files) {
         fs::write(folder.join(name), text).unwrap();
     }
-    for i in 0..BATCH {
-        // Tokens with attributes make a net a table, and with it the nets that it shares with others.
-        fs::write(folder.join(format!("r{i}.net")), net(&mut dice, &format!("r{i}"), seed % 2 == 1)).unwrap();
-    }
-    fs::write(folder.join("main.cfg"), configuration(BATCH)).unwrap();
-    fs::write(folder.join("stimulus.csv"), stimulus(&mut dice, SCANS)).unwrap();
+    fs::write(folder.join("main.cfg"), configuration(&nets)).unwrap();
+    fs::write(folder.join("stimulus.csv"), shared_stimulus(&mut dice, &nets, SCANS)).unwrap();
 }
 
 fn traced(folder: &Path, compiler: &str, more: &[&str]) -> String {

@@ -1,0 +1,108 @@
+//! Tokens: each is a list of attributes, and stays itself while it moves.
+
+use super::Fault;
+use super::expression::Value;
+use super::model::{Class, Kind, Net, Order};
+use super::unsettled::Unsettled;
+use std::cell::{Cell, RefCell};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// A token, by its number among all that ever were.
+pub(super) type Token = usize;
+
+/// What all nets of a run share.
+pub(super) struct World {
+    /// The attributes of every token that ever was.
+    tokens: Vec<BTreeMap<String, Value>>,
+    /// Faults of this scan.
+    pub(super) faults: Vec<Fault>,
+    /// What happened in this run that is not settled.
+    pub(super) unsettled: Cell<Option<Unsettled>>,
+    /// How often what happened.
+    pub(super) happened: RefCell<BTreeMap<&'static str, usize>>,
+    /// Nanoseconds from scan to scan.
+    pub(super) period: i64,
+}
+
+impl World {
+    /// Without a token yet.
+    pub(super) fn new(period: i64) -> World {
+        World {
+            tokens: Vec::new(),
+            faults: Vec::new(),
+            unsettled: Cell::new(None),
+            happened: RefCell::default(),
+            period,
+        }
+    }
+
+    /// Something came up that is not settled.
+    pub(super) fn mind(&self, what: Unsettled) {
+        self.unsettled.set(Some(what));
+    }
+
+    /// Counts what happens, so that a comparison can tell what it has seen.
+    pub(super) fn note(&self, what: &'static str) {
+        *self.happened.borrow_mut().entry(what).or_insert(0) += 1;
+    }
+
+    /// A token with the first values of its class.
+    pub(super) fn new_token(&mut self, class: Option<&Class>) -> Token {
+        let attributes = class.map_or(&[][..], |class| &class.attributes);
+        self.tokens.push(attributes.iter().map(|word| (word.name.clone(), word.first)).collect());
+        self.tokens.len() - 1
+    }
+
+    /// Another token like this one.
+    pub(super) fn copy(&mut self, token: Token) -> Token {
+        self.tokens.push(self.tokens[token].clone());
+        self.tokens.len() - 1
+    }
+
+    /// Whether attributes of two tokens are the same.
+    pub(super) fn are_alike(&self, a: Token, b: Token) -> bool {
+        self.tokens[a].iter().zip(&self.tokens[b]).all(|((_, a), (_, b))| a.same(*b))
+    }
+
+    pub(super) fn attribute(&self, token: Token, name: &str) -> Value {
+        self.tokens[token][name]
+    }
+
+    pub(super) fn set_attribute(&mut self, token: Token, name: &str, value: Value) {
+        let old = self.tokens[token][name];
+        self.tokens[token].insert(name.to_owned(), value.like(old));
+    }
+
+    /// Tokens of a box in the order in which it gives them out.
+    pub(super) fn in_order(&self, net: &Net, place: usize, tokens: &[Token]) -> Vec<Token> {
+        let mut tokens = tokens.to_vec();
+        let by = |a: Token, b: Token, name: &str| {
+            let (a, b) = (self.attribute(a, name).real(), self.attribute(b, name).real());
+            a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+        };
+        match order_of(net, place) {
+            Order::Fifo => {}
+            Order::Lifo => tokens.reverse(),
+            Order::Least(name) => tokens.sort_by(|a, b| by(*a, *b, name)),
+            Order::Most(name) => tokens.sort_by(|a, b| by(*b, *a, name)),
+        }
+        tokens
+    }
+}
+
+fn order_of(net: &Net, place: usize) -> &Order {
+    match &net.boxes[place].kind {
+        Kind::Capacity(_, order) => order,
+        Kind::Generate(generate) => &generate.order,
+        Kind::State
+        | Kind::Entry
+        | Kind::Exit
+        | Kind::Time(_)
+        | Kind::Count(_)
+        | Kind::Operation(_)
+        | Kind::Signal(_)
+        | Kind::Process(_)
+        | Kind::Macro(_) => &Order::Fifo,
+    }
+}
