@@ -8,6 +8,8 @@ use pcl2_tests::random_nets::{Wanted, configuration, dice, net, shared_stimulus}
 use pcl2_tests::{pcl2, run};
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
 
 /// Nets of one program.
 const BATCH: usize = 50;
@@ -15,7 +17,6 @@ const SCANS: usize = 1000;
 
 fn batch(folder: &Path, seed: u64) {
     let mut dice = dice(seed);
-    // Tokens with attributes make a net a table.
     let wanted = Wanted { classes: seed % 2 == 1, modes: true };
     let nets: Vec<Net> = (0..BATCH).map(|i| net(&mut dice, &format!("r{i}"), wanted)).collect();
     for (name, text) in nets.iter().flat_map(text::files) {
@@ -66,9 +67,14 @@ fn wanted() -> u64 {
 
 #[test]
 fn random_nets_are_the_same_in_every_form() {
-    for seed in 0..wanted().div_ceil(BATCH as u64) {
-        compare(seed, "tcc");
-    }
+    let (batches, next) = (wanted().div_ceil(BATCH as u64), AtomicU64::new(0));
+    let work = || {
+        while let Some(seed) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|seed| *seed < batches) {
+            compare(seed, "tcc");
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| (0..cores).for_each(|_| drop(scope.spawn(work))));
 }
 
 #[test]

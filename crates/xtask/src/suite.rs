@@ -14,11 +14,14 @@ pub(crate) fn test() -> Result<(), String> {
     run(cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"]).env("INSTA_UPDATE", "no"))
 }
 
-/// The long form of the comparison of random nets.
+/// The long form of the comparisons of random nets: with one another, and a tenth of them with their definition.
 pub(crate) fn nets(count: u32) -> Result<(), String> {
     packages::install()?;
-    let test = ["test", "--release", "-p", "pcl2-tests", "--test", "nets_random", "--locked", "random_nets"];
-    run(cargo().args(test).env("PCL2_RANDOM_NETS", count.to_string()))
+    let tests = ["--test", "nets_random", "--test", "nets_second_definition"];
+    let mut command = cargo();
+    command.args(["test", "--release", "-p", "pcl2-tests", "--locked"]).args(tests);
+    command.env("PCL2_RANDOM_NETS", count.to_string()).env("PCL2_DEFINED_NETS", (count / 10).to_string());
+    run(command.arg("random_nets"))
 }
 
 /// Adds the formatter and the linter to a toolchain that came without them.
