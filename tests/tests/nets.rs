@@ -237,6 +237,24 @@ fn of_two_writes_that_of_the_higher_priority_stays() {
     }
 }
 
+/// Of two writes that of the net around stays, and the other is told as a conflict.
+#[test]
+fn a_net_writes_before_those_inside_it() {
+    let outer = "int w = outer ( int go : )
+STATE a MARKED
+STATE b
+STATE c MARKED
+MODULE M : w = inner ( go : )
+GATE first : c -> IF 0
+GATE g : a -> b IF go
+DO w = 1
+END
+";
+    let inner = "int w = inner ( int go : )\nSTATE a MARKED\nSTATE b\nGATE g : a -> b IF go\nDO w = 2\nEND\n";
+    let trace = traced(&[("outer.net", outer), ("inner.net", inner)], "k,go\n0,0\n1,1\n", &["--steps", "3"]);
+    assert_eq!(column(&trace, "w"), [0., 1., 1.]);
+}
+
 /// A macro's token runs through the net inside; the macro is excited when it stands at the exit.
 #[test]
 fn a_macro_is_entered_and_left() {

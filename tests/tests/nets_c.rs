@@ -2,15 +2,17 @@
 
 use pcl2_tests::compilers::{Built, STRICT, check};
 use pcl2_tests::dice::Dice;
+use pcl2_tests::fences::fences;
 use pcl2_tests::nets::{self, column};
-use pcl2_tests::{pcl2, run};
+use pcl2_tests::{pcl2, root, run};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
 /// What stands behind the name of a net in the C of both forms.
-const BEHIND: &str = "act active after boxes calm check commit drives duration empty enter excite gates gates_1 hands init \
-                      inputs leave levels net outputs pass places put scan table take touch tune vacant wait words writes";
+const BEHIND: &str = "act active after boxes calm check commit drives duration empty enter excite force force_put \
+                      force_take gates gates_1 hands hold init inputs leave leaves levels mode net obey outputs pass \
+                      places put record scan swap table take there touch try tune vacant wait words writes";
 
 fn write(folder: &Path, files: &[(&str, &str)]) {
     for (name, text) in files {
@@ -72,6 +74,23 @@ fn crowded() -> String {
     text + "END\n"
 }
 
+/// The same under an operator, with tokens that carry something.
+fn crowded_and_operated() -> String {
+    let names: Vec<&str> = BEHIND.split_whitespace().collect();
+    let mut text = "int y, int why = crowd ( int x, int m, cell int go = 0, cell int fire = 0, cell int put = 0, cell int take = 0 : )\n\
+                    MODE m, go, fire, put, take\nBLOCKED why\nSTOP y = HOLD\nCLASS new ( int self = 1, real register = 2. )\n"
+        .to_owned();
+    for name in names.iter().filter(|name| !["put", "take"].contains(name)) {
+        let marked = if *name == "act" { " MARKED ( self = 3 ) DRIVES y" } else { "" };
+        let _ = writeln!(text, "CAPACITY {name} OF new SIZE 2 ORDER least self{marked}");
+    }
+    let boxes: Vec<&&str> = names.iter().filter(|name| !["put", "take"].contains(name)).collect();
+    for (from, to) in boxes.iter().zip(boxes.iter().cycle().skip(1)) {
+        let _ = writeln!(text, "GATE {from} : {from} -> {to} PERMIT x, {to}.register < 3. IF {from}.self > 0");
+    }
+    text + "END\n"
+}
+
 #[test]
 fn boxes_and_nets_may_be_called_like_what_is_made_of_a_net() {
     let small = |name: &str| {
@@ -92,6 +111,23 @@ fn boxes_and_nets_may_be_called_like_what_is_made_of_a_net() {
         ("n_take.net", &take),
     ];
     compile(&files);
+    compile(&[("crowd.net", &crowded_and_operated())]);
+}
+
+/// The page shows the code of a gate as it is.
+#[test]
+fn the_page_shows_code_that_is_written() {
+    let page = fs::read_to_string(root().join("docs/nets.md")).unwrap();
+    let blocks = fences(&page);
+    let shown = blocks.iter().find(|block| block.language == "c").unwrap();
+    let net = blocks.iter().find(|block| block.file.as_deref() == Some("fill.net")).unwrap();
+    let (folder, built) = (tempfile::tempdir().unwrap(), Built::empty());
+    write(folder.path(), &[("fill.net", &net.text)]);
+    let mut command = pcl2();
+    check(command.arg("build").arg(folder.path().join("fill.net")).args(["--period", "0.5", "-o"]).arg(built.path()));
+    let code = fs::read_to_string(built.path().join("fill.c")).unwrap();
+    let lines = |text: &str| text.lines().map(|line| line.trim().to_owned()).collect::<Vec<_>>().join("\n");
+    assert!(lines(&code).contains(&lines(&shown.text)), "{code}");
 }
 
 #[test]

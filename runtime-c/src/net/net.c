@@ -663,7 +663,7 @@ static void net_blocked(struct pcl2_net *net)
     }
 }
 
-/* Words that a part writes take its value when it wrote it. */
+/* Words that a part writes take its value when it wrote it. Its gates come after those of the net around it. */
 static void net_part_writes(struct pcl2_net *net, int32_t part)
 {
     const struct pcl2_net *inner = net_part_of(net, part);
@@ -677,7 +677,7 @@ static void net_part_writes(struct pcl2_net *net, int32_t part)
             pcl2_real before;
             net_keep(net, word, &before, 0);
             net_keep(net, word, net_word_at(inner, output), 1);
-            net_written(net, word, part, &before);
+            net_written(net, word, net->table[PCL2_NET_N_GATES] + part, &before);
         }
     }
 }

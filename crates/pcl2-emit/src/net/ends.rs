@@ -6,7 +6,7 @@ use super::layout::MOVED;
 use super::{NetBody, firing, modes};
 use crate::expr::Scope;
 use crate::layout::WHOLE;
-use pcl2_lang::net::{Drive, Level};
+use pcl2_lang::net::{BoxId, Drive, Level};
 use std::fmt::Write;
 
 pub(super) fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
@@ -212,7 +212,7 @@ fn stops(net: &NetBody<'_, '_, '_>, part: usize, output: usize) -> bool {
     operation.is_some_and(|operation| operation.stops.iter().any(|(word, _)| word.0 as usize == output))
 }
 
-/// Words that a net inside writes take its value when it wrote it.
+/// Words that a net inside writes take its value when it wrote it. Its gates come after those of the net around it.
 fn part_writes(out: &mut String, net: &NetBody<'_, '_, '_>, part: usize) {
     for (output, word) in &net.net.parts[part].writes {
         let (output, word) = (*output as usize, word.0 as usize);
@@ -228,7 +228,8 @@ fn part_writes(out: &mut String, net: &NetBody<'_, '_, '_>, part: usize) {
         }
         let _ = writeln!(out, "        {place} = {};", part_word(net, part, output));
         if net.layout.facts.tracked[word] {
-            firing::wrote(out, net, word, &part.to_string(), "before", "        ");
+            let gate = (net.net.gates.len() + part).to_string();
+            firing::wrote(out, net, word, &gate, "before", "        ");
         }
         out.push_str("        self->net.restless = 1;\n    }\n");
     }
@@ -271,8 +272,9 @@ fn active(out: &mut String, net: &NetBody<'_, '_, '_>) {
     for (i, active) in net.net.actives.iter().enumerate() {
         let step = net.word(active.step.0 as usize, net.scope());
         let tests = active.boxes.iter().enumerate();
-        let text: String =
-            tests.map(|(k, place)| format!("self->box[{}] > 0 ? {} : ", net.place(*place), k + 1)).collect();
+        let test =
+            |(k, place): (usize, &BoxId)| format!("self->box[{}] > 0 ? {}\n        : ", net.place(*place), k + 1);
+        let text: String = tests.map(test).collect();
         let tracked = |word: usize| net.layout.facts.tracked[word];
         let _ = writeln!(out, "    const int32_t marked{i} = {text}0;");
         let _ =

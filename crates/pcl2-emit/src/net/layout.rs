@@ -133,6 +133,7 @@ const SUFFIXES: &[&str] = &[
     "swap",
     "table",
     "take",
+    "there",
     "touch",
     "try",
     "vacant",

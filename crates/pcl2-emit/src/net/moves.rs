@@ -14,7 +14,7 @@ fn no_gates(net: &NetBody<'_, '_, '_>) -> bool {
 /// Writes those of the small functions that the functions of gates and boxes use.
 pub(super) fn functions(out: &mut String, net: &NetBody<'_, '_, '_>, users: &str) {
     let tag = net.tag();
-    let used = |name: &str| users.contains(&format!(" {tag}_{name}("));
+    let used = |name: &str| [" ", "[", "("].iter().any(|before| users.contains(&format!("{before}{tag}_{name}(")));
     for (name, change, says) in [
         ("excite", "|= ", "The gates after a box are ready."),
         ("calm", "&= ~", "The gates after a box are not ready."),
@@ -44,6 +44,18 @@ static inline void {tag}_take(struct {tag} *self, int32_t place, int32_t tokens)
     if used("put") {
         put(out, net);
     }
+    if used("there") {
+        let _ = write!(
+            out,
+            "/* The tokens of a box that can still be taken, or that came in this gate phase. */
+static inline int32_t {tag}_there(const struct {tag} *self, int32_t place)
+{{
+    return self->box[place] - self->net.taken[place] + self->net.filled[place];
+}}
+
+"
+        );
+    }
     if used("hold") {
         let _ = write!(
             out,
@@ -58,7 +70,7 @@ static inline void {tag}_hold(struct {tag} *self, int32_t term)
 "
         );
     }
-    if net.layout.facts.tracks() {
+    if used("writes") {
         let _ = write!(
             out,
             "/* Who wrote an output. */

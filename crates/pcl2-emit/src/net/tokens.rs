@@ -50,6 +50,11 @@ impl NetBody<'_, '_, '_> {
         }
     }
 
+    /// How many tokens a box has that can still be taken, or that came in this gate phase.
+    fn there(&self, id: BoxId) -> String {
+        format!("{}_there(self, {})", self.tag(), self.place(id))
+    }
+
     /// Whether a box has at most one token.
     pub(super) fn is_single(&self, id: BoxId) -> bool {
         self.net.place(id).capacity == Some(1)
@@ -249,7 +254,7 @@ pub(super) fn take(out: &mut String, net: &NetBody<'_, '_, '_>, id: BoxId, hands
     if !net.carries(id) {
         return;
     }
-    let (hand, tokens, name) = (net.hand(id), net.tokens(id), net.place(id));
+    let (hand, tokens) = (net.hand(id), net.tokens(id));
     if net.is_single(id) {
         if *held(hands, id) == Held::No {
             let _ = writeln!(out, "{indent}{hand} = {};", net.sole_token(id));
@@ -268,11 +273,8 @@ pub(super) fn take(out: &mut String, net: &NetBody<'_, '_, '_>, id: BoxId, hands
             place
         }
     };
-    let _ = writeln!(
-        out,
-        "{indent}pcl2_net_close_gap({tokens}, sizeof {tokens}[0], {place}, {} + self->net.filled[{name}]);",
-        net.left(id)
-    );
+    let there = net.there(id);
+    let _ = writeln!(out, "{indent}pcl2_net_close_gap({tokens}, sizeof {tokens}[0], {place}, {there});");
 }
 
 /// Writes how a new token gets into hand.
@@ -287,10 +289,10 @@ pub(super) fn lay(out: &mut String, net: &NetBody<'_, '_, '_>, from: BoxId, to: 
     if !net.carries(to) {
         return;
     }
-    let (hand, tokens, name) = (net.hand(from), net.tokens(to), net.place(to));
+    let (hand, tokens) = (net.hand(from), net.tokens(to));
     let place = match net.is_single(to) {
         true => "0".to_owned(),
-        false => format!("{} + self->net.filled[{name}]", net.left(to)),
+        false => net.there(to),
     };
     let _ = writeln!(out, "{indent}{tokens}[{place}] = {hand};");
 }
