@@ -17,8 +17,10 @@ pub(crate) fn test() -> Result<(), String> {
 /// The long form of the comparison of random nets.
 pub(crate) fn nets(count: u32) -> Result<(), String> {
     packages::install()?;
-    let test = ["test", "--release", "-p", "pcl2-tests", "--test", "nets_random", "--locked", "random_nets"];
-    run(cargo().args(test).env("PCL2_RANDOM_NETS", count.to_string()))
+    let test = ["test", "--release", "-p", "pcl2-tests", "--locked", "random_nets", "--test"];
+    run(cargo().args(test).arg("nets_random").env("PCL2_RANDOM_NETS", count.to_string()))?;
+    // Each of these runs alone.
+    run(cargo().args(test).arg("nets_second_definition").env("PCL2_DEFINED_NETS", (count / 10).to_string()))
 }
 
 /// Adds the formatter and the linter to a toolchain that came without them.
