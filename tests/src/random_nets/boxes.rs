@@ -113,7 +113,9 @@ impl Maker<'_> {
         let own = [name.to_owned()];
         let begins = self.statements(1, &own);
         let until = (!self.dice.once_in(3)).then(|| self.condition(&own));
-        let within = self.dice.once_in(2).then(|| self.time());
+        // Not settled: the fast form of a net with a PROCESS and without any time is no C. So there is one.
+        let is_timeless = !self.reals.iter().any(|name| name == "at");
+        let within = (is_timeless || self.dice.once_in(2)).then(|| if is_timeless { word("par") } else { self.time() });
         let mut after = Vec::new();
         if self.dice.once_in(2) {
             after.extend(self.statements(1, &own));
