@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// Nets of one program.
 const BATCH: usize = 50;
-const SCANS: usize = 1000;
+const SCANS: usize = 500;
 
 fn batch(folder: &Path, seed: u64) {
     let mut dice = dice(seed);
