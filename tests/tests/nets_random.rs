@@ -13,6 +13,8 @@ use std::thread;
 
 /// Nets of one program.
 const BATCH: usize = 50;
+/// The long form tells how far it is after so many programs.
+const PROGRESS: u64 = 50;
 const SCANS: usize = 1000;
 
 fn batch(folder: &Path, seed: u64) {
@@ -69,7 +71,14 @@ fn wanted() -> u64 {
 fn random_nets_are_the_same_in_every_form() {
     let (batches, next) = (wanted().div_ceil(BATCH as u64), AtomicU64::new(0));
     let work = || {
-        while let Some(seed) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|seed| *seed < batches) {
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= batches {
+                break;
+            }
+            if seed != 0 && seed % PROGRESS == 0 {
+                eprintln!("{} nets", seed * BATCH as u64);
+            }
             compare(seed, "tcc");
         }
     };

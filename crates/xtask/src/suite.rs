@@ -17,11 +17,15 @@ pub(crate) fn test() -> Result<(), String> {
 /// The long form of the comparisons of random nets: with one another, and a tenth of them with their definition.
 pub(crate) fn nets(count: u32) -> Result<(), String> {
     packages::install()?;
-    let tests = ["--test", "nets_random", "--test", "nets_second_definition"];
-    let mut command = cargo();
-    command.args(["test", "--release", "-p", "pcl2-tests", "--locked"]).args(tests);
-    command.env("PCL2_RANDOM_NETS", count.to_string()).env("PCL2_DEFINED_NETS", (count / 10).to_string());
-    run(command.arg("random_nets"))
+    let test = |name: &str| {
+        let mut command = cargo();
+        command.args(["test", "--release", "-p", "pcl2-tests", "--locked", "--test", name, "random_nets"]);
+        command.args(["--", "--nocapture"]);
+        command
+    };
+    run(test("nets_random").env("PCL2_RANDOM_NETS", count.to_string()))?;
+    // Each of these runs alone.
+    run(test("nets_second_definition").env("PCL2_DEFINED_NETS", (count / 10).to_string()))
 }
 
 /// Adds the formatter and the linter to a toolchain that came without them.

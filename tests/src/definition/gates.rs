@@ -3,7 +3,7 @@
 use super::expression::Expression;
 use super::hands;
 use super::instance::{Arrival, Hand, Instance, Mode, NOBODY, Rank};
-use super::model::{Gate, Kind, Net, Rule};
+use super::model::{Gate, Kind, Net, Route, Rule, Statement, Target};
 use super::statements::run;
 use super::tokens::{Token, World};
 use super::unsettled::Unsettled;
@@ -168,6 +168,7 @@ fn fire(instance: &mut Instance, gate: &Gate, rule: &Rule, hand: &Hand, rank: Ra
     if let Some(condition) = &rule.condition {
         instance.clear_commands(condition);
     }
+    mind_replaced(net, gate, rule, world);
     run(instance, &rule.acts, rank, hand, world);
     let in_hand = |name: &str| hand.iter().find(|(from, _)| from == name).map(|(_, token)| *token);
     if rule.routes.is_empty() {
@@ -186,6 +187,25 @@ fn fire(instance: &mut Instance, gate: &Gate, rule: &Rule, hand: &Hand, rank: Ra
     for routed in &rule.routes {
         let source = routed.from.as_deref();
         route(instance, gate, source, &routed.to, source.and_then(in_hand), rank, world);
+    }
+}
+
+/// Statements see the token that was taken, and run before tokens are put.
+fn mind_replaced(net: &Net, gate: &Gate, rule: &Rule, world: &World) {
+    let stays = |name: &String| {
+        let own = |route: &Route| route.from.as_ref() == Some(name);
+        let first = gate.before.first().is_some_and(|(first, _)| first == name);
+        match rule.routes.iter().find(|route| route.to.contains(name)) {
+            Some(route) => own(route),
+            None => !rule.routes.is_empty() || first,
+        }
+    };
+    for (name, _) in gate.before.iter().filter(|(name, _)| gate.after.iter().any(|(after, _)| after == name)) {
+        let with_class = net.boxes[net.place(name)].class.is_some();
+        let writes = |act: &Statement| matches!(&act.target, Target::Attribute(place, _) if place == name);
+        if with_class && rule.acts.iter().any(writes) && !stays(name) {
+            world.mind(Unsettled::Replaced);
+        }
     }
 }
 

@@ -311,6 +311,9 @@ impl<'n> Instance<'n> {
                 world.mind(Unsettled::MacroFromAfar);
             }
             self.mind_new_tokens(place, world);
+            if self.start[place].iter().any(|token| self.taken.contains(token)) {
+                world.mind(Unsettled::FirstIsTaken);
+            }
         }
         in_hand.or_else(|| world.in_order(self.net, place, &self.start[place]).first().copied())
     }

@@ -34,6 +34,12 @@ pub enum Unsettled {
     ClearedCommand,
     /// An attribute of a box without a token, of which the page says nothing. In the player it is 0.
     EmptyBox,
+    /// An attribute of a box whose first token a gate has just taken. By the page it is that of the first token at the start of
+    /// the phase, in the player that of the first one left.
+    FirstIsTaken,
+    /// A statement over the token that a gate takes from a box into which it puts another one. By the page it is the token
+    /// taken; the player writes to the one put.
+    Replaced,
     /// An attribute of a macro from which the gate takes nothing: of the token that entered, or of the one at the exit.
     MacroFromAfar,
     /// A net inside that has its own MODE and goes on while the net around it is stopped. The page: written outputs are then

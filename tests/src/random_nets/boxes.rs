@@ -113,7 +113,9 @@ impl Maker<'_> {
         let own = [name.to_owned()];
         let begins = self.statements(1, &own);
         let until = (!self.dice.once_in(3)).then(|| self.condition(&own));
-        let within = self.dice.once_in(2).then(|| self.time());
+        // Not settled: the fast form of a net with a PROCESS and without any time is no C. So there is one.
+        let is_timeless = !self.reals.iter().any(|name| name == "at");
+        let within = (is_timeless || self.dice.once_in(2)).then(|| if is_timeless { word("par") } else { self.time() });
         let mut after = Vec::new();
         if self.dice.once_in(2) {
             after.extend(self.statements(1, &own));
@@ -148,23 +150,29 @@ impl Maker<'_> {
         source.class = Some(class.name);
         self.net.boxes.extend([place, source]);
         let own = ["new".to_owned()];
-        let [when, value, wanted] = std::array::from_fn(|_| word(["x0", "x1", "z[1]", "z[2]"][self.dice.below(4)]));
+        let mut any = || word(["x0", "x1", "z[1]", "z[2]", "w0"][self.dice.below(5)]);
+        let (when, value, wanted) = (any(), any(), any());
         let attribute = |place: &str| Target::Attribute(place.to_owned(), "a".to_owned());
         let begins = vec![Statement { target: attribute("new"), value }, self.statement(&own)];
         let generate = Generate { size: 1, order: Order::Fifo, when, begins };
         if let Some(source) = self.net.boxes.last_mut() {
             source.kind = Kind::Generate(generate);
         }
-        let to = |from: &str, to: &[&str], condition| Gate {
-            name: format!("{from}s"),
+        let gate = |name: &str, from: &str, to: Vec<(String, usize)>, rules| Gate {
+            name: name.to_owned(),
             before: vec![(from.to_owned(), 1)],
-            after: to.iter().map(|to| ((*to).to_owned(), 1)).collect(),
-            rules: vec![Rule { condition, ..Rule::default() }],
+            after: to,
+            rules,
             ..Gate::default()
         };
-        let asked = Expression::Attribute("queue".to_owned(), "a".to_owned());
-        let condition = two(Operator::Equal, asked, wanted);
-        self.net.gates.extend([to("new", &["queue"], None), to("queue", &[], Some(condition))]);
+        self.net.gates.push(gate("comes", "new", vec![("queue".to_owned(), 1)], vec![Rule::default()]));
+        // Seldom enough for several to wait; what has left is shown.
+        let asked = || Expression::Attribute("queue".to_owned(), "a".to_owned());
+        let shown = vec![Statement { target: Target::Word("w0".to_owned()), value: asked() }];
+        let rule = |condition| Rule { condition: Some(condition), routes: Vec::new(), acts: shown.clone() };
+        let chooses = two(Operator::And, word("x2"), two(Operator::Equal, asked(), wanted));
+        let rules = vec![rule(chooses), rule(two(Operator::And, word("x1"), word("x2")))];
+        self.net.gates.push(gate("goes", "queue", Vec::new(), rules));
     }
 
     /// A row of boxes through which tokens go, written as repeated lines.

@@ -2,15 +2,21 @@
 
 use super::Maker;
 use super::boxes::plain;
-use super::{input, int, real};
+use super::{dice, input, int, real};
 use crate::definition::expression::{Expression, Value};
 use crate::definition::model::{Abort, Class, Gate, Kind, Net, Part, Route, Rule};
+
+/// The dice of nets that all nets of a program may have inside.
+const SHARED: u64 = 12;
 
 impl Maker<'_> {
     /// Macros and modules, some in more than one instance.
     pub(super) fn inside(&mut self, name: &str, modes: bool) {
         if self.dice.once_in(2) {
-            let net = self.device(&format!("{name}dev"), modes);
+            let net = match self.dice.once_in(3) {
+                true => Maker::new(&mut dice(SHARED), name).device("shared", false),
+                false => self.device(&format!("{name}dev"), modes),
+            };
             for at in 0..1 + self.dice.below(2) {
                 let outputs = vec![Some("y2".to_owned()), Some("s1".to_owned()), Some("t1".to_owned())];
                 let outputs = if at == 0 { outputs } else { vec![None, None, None] };
@@ -18,8 +24,12 @@ impl Maker<'_> {
             }
         }
         for at in 0..1 + self.dice.below(2) {
-            let class = self.some_class();
-            let net = self.detail(&format!("{name}m{at}"), class.clone(), modes, 2);
+            let shared = self.dice.once_in(4);
+            let class = if shared { None } else { self.some_class() };
+            let net = match shared {
+                true => Maker::new(&mut dice(SHARED), name).detail("sharedm", None, false, 2),
+                false => self.detail(&format!("{name}m{at}"), class.clone(), modes, 2),
+            };
             // What it writes goes to one word, by one part each.
             let written = if at == 0 { "w2" } else { "n1" };
             let outputs = [("y1", self.dice.once_in(2)), (written, !self.dice.once_in(3))];
