@@ -82,13 +82,14 @@ impl Maker<'_> {
         }
     }
 
-    fn order(&mut self, with_class: bool) -> Order {
+    pub(super) fn order(&mut self, with_class: bool) -> Order {
+        // Both classes have an int `a`.
+        let attribute = "a".to_owned();
         match self.dice.roll(if with_class { 4 } else { 2 }) {
             0 => Order::Fifo,
             1 => Order::Lifo,
-            // Both classes have an int `a`.
-            2 => Order::Least("a".to_owned()),
-            _ => Order::Most("a".to_owned()),
+            2 => Order::Least(attribute),
+            _ => Order::Most(attribute),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Random nets with everything that the notation has, for the comparison of engines and forms, and with the definition.
 
 mod boxes;
+mod calm;
 mod conditions;
 mod gates;
 mod parts;
@@ -26,6 +27,8 @@ pub struct Wanted {
     pub classes: bool,
     /// An operator.
     pub modes: bool,
+    /// No time, no GENERATE box and no operator: where no input changes, the net comes to rest.
+    pub calm: bool,
 }
 
 /// One net in the making.
@@ -56,6 +59,9 @@ fn input(first: Word) -> Input {
 
 /// A random net, with random nets inside.
 pub fn net(dice: &mut Dice, name: &str, wanted: Wanted) -> Net {
+    if wanted.calm {
+        return calm::net(dice, name, wanted);
+    }
     // Some nets need more than one word for the sets of boxes and gates.
     let many = if dice.once_in(10) { 60 } else { 0 };
     let mut maker = Maker::new(dice, name);

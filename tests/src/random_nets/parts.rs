@@ -83,7 +83,7 @@ impl Maker<'_> {
         self.net.parts.push(Part { name: name.to_owned(), net, outputs, inputs, parameters, abort: None });
     }
 
-    fn wire(&mut self, like: Value) -> Expression {
+    pub(super) fn wire(&mut self, like: Value) -> Expression {
         if let (Value::Int(_), true) = (like, self.dice.once_in(4)) {
             let name = self.net.boxes[self.dice.below(self.net.boxes.len())].name.clone();
             return Expression::Tokens(name);

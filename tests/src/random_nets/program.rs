@@ -18,9 +18,18 @@ const REALS: [f64; 8] = [0., 0.1, 0.4, 0.9, 2.5, -1., f64::NAN, f64::INFINITY];
 impl Stimulus {
     /// Values for a net that runs alone: they change now and then.
     pub fn random(dice: &mut Dice, net: &Net, scans: usize) -> Stimulus {
+        let quiet = quiet(dice, scans);
+        Stimulus::with_quiet(dice, net, &quiet)
+    }
+
+    /// The same with nothing in these scans.
+    fn with_quiet(dice: &mut Dice, net: &Net, quiet: &[bool]) -> Stimulus {
         let (mut mode, mut was) = (0, 0);
         let mut one = |scan: usize| {
             let mut writes = BTreeMap::new();
+            if quiet[scan] {
+                return writes;
+            }
             for input in net.inputs.iter().filter(|input| !net.mode.contains(&input.name)) {
                 if scan == 0 || dice.once_in(4) {
                     writes.extend(written(dice, input));
@@ -39,7 +48,7 @@ impl Stimulus {
             undisputed(net, &mut writes, (was, mode));
             writes
         };
-        Stimulus { scans: (0..scans).map(&mut one).collect() }
+        Stimulus { scans: (0..quiet.len()).map(&mut one).collect() }
     }
 
     /// Each stimulus with something less: fewer scans, or one that writes less.
@@ -109,6 +118,16 @@ fn undisputed(net: &Net, writes: &mut BTreeMap<String, Value>, (was, mode): (i32
 
 const STOPPED: i32 = 3;
 
+/// For each scan whether nothing changes in it: stretches of both kinds follow one another.
+fn quiet(dice: &mut Dice, scans: usize) -> Vec<bool> {
+    let mut quiet = Vec::new();
+    while quiet.len() < scans {
+        let is_quiet = quiet.last().is_some_and(|last: &bool| !last);
+        quiet.resize((quiet.len() + 10 + dice.below(21)).min(scans), is_quiet);
+    }
+    quiet
+}
+
 fn number(value: Value) -> String {
     match value {
         Value::Int(int) => int.to_string(),
@@ -165,16 +184,15 @@ pub fn configuration(nets: &[Net]) -> String {
 
 /// A stimulus for such a configuration: shared inputs and the cells of each net.
 pub fn shared_stimulus(dice: &mut Dice, nets: &[Net], scans: usize) -> String {
-    let cells: Vec<Stimulus> = nets.iter().map(|net| Stimulus::random(dice, net, scans)).collect();
+    let quiet = quiet(dice, scans);
+    let cells: Vec<Stimulus> = nets.iter().map(|net| Stimulus::with_quiet(dice, net, &quiet)).collect();
     let mut columns: Vec<(String, Vec<String>)> = Vec::new();
     for name in ["x0.value", "x1.value", "x2.value", "x3.value", "z.v[1]", "z.v[2]", "z.v[3]"] {
-        columns.push((name.to_owned(), (0..scans).map(|_| sometimes(dice, &["0", "1"])).collect()));
+        columns.push((name.to_owned(), sometimes(dice, &quiet, &["0", "1"])));
     }
     for name in ["w.value", "u.v[1]", "u.v[2]"] {
-        columns.push((
-            name.to_owned(),
-            (0..scans).map(|_| sometimes(dice, &["0.", "0.1", "0.4", "0.9", "2.5", "-1."])).collect(),
-        ));
+        let values = ["0.", "0.1", "0.4", "0.9", "2.5", "-1."];
+        columns.push((name.to_owned(), sometimes(dice, &quiet, &values)));
     }
     for (at, (net, stimulus)) in nets.iter().zip(&cells).enumerate() {
         for input in net.inputs.iter().filter(|input| input.cell && (net.mode.contains(&input.name) || at % 2 == 0)) {
@@ -193,7 +211,11 @@ pub fn shared_stimulus(dice: &mut Dice, nets: &[Net], scans: usize) -> String {
     text
 }
 
-/// One of some values now and then.
-fn sometimes(dice: &mut Dice, values: &[&str]) -> String {
-    if dice.once_in(4) { dice.one(values).to_owned() } else { String::new() }
+/// One of some values now and then, but in no quiet scan.
+fn sometimes(dice: &mut Dice, quiet: &[bool], values: &[&str]) -> Vec<String> {
+    let mut one = |is_quiet: &bool| match !is_quiet && dice.once_in(4) {
+        true => dice.one(values).to_owned(),
+        false => String::new(),
+    };
+    quiet.iter().map(&mut one).collect()
 }
