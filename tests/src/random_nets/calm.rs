@@ -8,7 +8,7 @@ use super::conditions::{two, word};
 use super::{Maker, Wanted, input, int, real};
 use crate::definition::expression::{Expression, Operator, Value};
 use crate::definition::model::{Abort, Active, Class, Gate, Input, Kind, Net, Order, Part, Process, Rule};
-use crate::definition::model::{Statement, Target};
+use crate::definition::model::{Route, Statement, Target};
 use crate::dice::Dice;
 
 /// Levels of nets inside the outermost one.
@@ -18,9 +18,18 @@ const PARTS: usize = 3;
 
 /// What of a net inside the one around it is told: an output that boxes drive, one that is written, a step.
 const TOLD: [&str; 3] = ["d", "t", "s"];
+const SWITCHES: [&str; 3] = ["x0", "x1", "x2"];
 
 fn number(value: i32) -> Expression {
     Expression::Number(Value::Int(value))
+}
+
+fn route((from, to): (&String, &String)) -> Route {
+    Route { from: Some(from.clone()), to: vec![to.clone()] }
+}
+
+fn not(condition: Expression) -> Expression {
+    Expression::Not(Box::new(condition))
 }
 
 /// A random net that comes to rest, with random nets inside.
@@ -90,11 +99,11 @@ impl Maker<'_> {
         place.class = class;
         self.net.boxes.push(place.clone());
         let own = [name.to_owned()];
-        place.kind = match self.dice.roll(10) {
-            0..4 => Kind::State,
-            4 | 5 => Kind::Operation(self.calm_statements(&own)),
-            6 => Kind::Signal(self.calm_statements(&own)),
-            7 => Kind::Process(Process {
+        place.kind = match self.dice.roll(16) {
+            0..8 => Kind::State,
+            8..11 => Kind::Operation(self.calm_statements(&own)),
+            11 | 12 => Kind::Signal(self.calm_statements(&own)),
+            13 => Kind::Process(Process {
                 begins: self.calm_statements(&own),
                 until: Some(self.calm_condition(&own)),
                 within: None,
@@ -135,28 +144,35 @@ impl Maker<'_> {
         match self.dice.roll(6) {
             0 => two(Operator::And, first, self.calm_truth(asked)),
             1 => two(Operator::Or, first, self.calm_truth(asked)),
-            2 => {
-                let both = two(Operator::And, word("x1"), word("x2"));
-                two(Operator::Or, first, both)
-            }
+            2 | 3 => two(Operator::Or, first, word(self.dice.one(&SWITCHES))),
             _ => first,
         }
     }
 
     fn calm_truth(&mut self, asked: &[String]) -> Expression {
-        let any = |maker: &mut Self, names: &[&str]| word(names[maker.dice.below(names.len())]);
         match self.dice.roll(10) {
-            0 | 1 => any(self, &["x0", "x1", "x2"]),
-            2 => Expression::Not(Box::new(any(self, &["x0", "x1", "x2", "y0", "d0", "d1"]))),
-            3 | 4 => {
-                let step = any(self, &["step", "step", "s0", "s1", "w0", "t0", "t1", "w1", "kept"]);
-                two(Operator::Equal, step, number(self.dice.roll(4) as i32))
+            0 => word(self.dice.one(&SWITCHES)),
+            1 => not(word(self.dice.one(&SWITCHES))),
+            2..6 => {
+                let told = self.told();
+                let name = told[self.dice.below(told.len())].clone();
+                match self.dice.roll(if name == "step" { 2 } else { 4 }) {
+                    0 | 1 => two(Operator::Equal, word(&name), number(self.dice.roll(3) as i32)),
+                    2 => not(word(&name)),
+                    _ => word(&name),
+                }
             }
-            5 => any(self, &["y0", "d0", "d1", "d2", "kept", "w1", "t0"]),
             6 | 7 => self.calm_tokens(),
-            8 => Expression::Not(Box::new(self.calm_tokens())),
+            8 => not(self.calm_tokens()),
             _ => self.condition(asked),
         }
+    }
+
+    /// What this net and those inside it tell, the latter twice as often.
+    fn told(&self) -> Vec<String> {
+        let parts = self.net.parts.iter().flat_map(|part| part.outputs.iter().flatten().cloned());
+        let own = ["step", "y0", "w0", "kept"].map(str::to_owned);
+        own.into_iter().chain(parts.clone()).chain(parts).collect()
     }
 
     fn calm_tokens(&mut self) -> Expression {
@@ -198,11 +214,17 @@ impl Maker<'_> {
         maker.net.boxes.push(plain("gone", Kind::Exit));
         way.push("gone".to_owned());
         maker.calm_parts(levels);
+        let switch = maker.dice.one(&SWITCHES);
+        let leads_back = maker.dice.once_in(2);
         for (at, pair) in way.windows(2).enumerate() {
             maker.calm_gate(&format!("way{at}"), &pair[0], &pair[1]);
+            if at == 0 && leads_back {
+                maker.only_if(word(switch));
+            }
         }
-        if maker.dice.once_in(2) {
+        if leads_back {
             maker.calm_gate("back", "p0", "come");
+            maker.only_if(not(word(switch)));
         }
         maker.calm_ends();
         let inner = maker.net;
@@ -217,7 +239,11 @@ impl Maker<'_> {
     }
 
     fn calm_part(&mut self, name: &str, at: usize, net: Net, abort: Option<Abort>) {
-        let inputs = net.inputs.iter().map(|input| self.wire(input.first)).collect();
+        let wire = |input: &Input| match self.dice.once_in(2) {
+            true => word(&input.name),
+            false => self.wire(input.first),
+        };
+        let inputs = net.inputs.iter().map(wire).collect();
         let mut outputs: Vec<Option<String>> = vec![None; net.outputs.len()];
         for (what, output) in TOLD.into_iter().zip(["y0", "w0", "step"]) {
             // What the net inside is told itself.
@@ -237,28 +263,44 @@ impl Maker<'_> {
         self.net.parts.push(Part { name: name.to_owned(), net, outputs, inputs, parameters: Vec::new(), abort });
     }
 
-    /// Gates round each ring, and some across.
+    /// Gates round each ring, and some across. On its way round a token waits for an input to come and to go.
     fn calm_ways(&mut self, rings: &[Vec<String>]) {
         for ring in rings {
+            let switch = self.dice.one(&SWITCHES);
             for (at, from) in ring.iter().enumerate() {
                 let to = &ring[(at + 1) % ring.len()];
                 self.calm_gate(&format!("g_{from}"), from, to);
+                match at {
+                    0 => self.only_if(word(switch)),
+                    1 => self.only_if(not(word(switch))),
+                    _ => {}
+                }
             }
             if self.dice.once_in(3) {
-                let (from, to) = (&ring[self.dice.below(ring.len())], &ring[0]);
-                self.calm_gate(&format!("h_{from}"), from, to);
+                let from = &ring[1 + self.dice.below(ring.len() - 1)];
+                self.calm_gate(&format!("h_{from}"), from, &ring[0]);
+                self.only_if(not(word(switch)));
             }
         }
-        if let ([a, .., b], true) = (rings, self.dice.once_in(2)) {
-            self.calm_gate("both", &a[0], &a[1]);
+        if let ([a, .., b], true) = (rings, self.dice.once_in(3)) {
+            self.calm_gate("both", &b[0], &b[1]);
+            self.only_if(word("x0"));
             if let Some(gate) = self.net.gates.last_mut() {
-                gate.before.push((b[0].clone(), 1));
+                gate.before.push((a[0].clone(), 1));
+                gate.rules[0].routes = [(&b[0], &b[1]), (&a[0], &a[0])].map(route).to_vec();
+                gate.after.push((a[0].clone(), 1));
             }
-            self.calm_gate("next", &b[b.len() - 1], &b[0]);
-            let from = b[0].clone();
-            if let Some(gate) = self.net.gates.last_mut() {
-                (gate.before, gate.inhibits) = (Vec::new(), vec![(from, 1)]);
-            }
+        }
+    }
+
+    /// One more condition for the last gate; now and then it is the only one.
+    fn only_if(&mut self, switch: Expression) {
+        let alone = self.dice.once_in(3);
+        if let Some(rule) = self.net.gates.last_mut().and_then(|gate| gate.rules.first_mut()) {
+            rule.condition = Some(match rule.condition.take() {
+                Some(condition) if !alone => two(Operator::And, switch, condition),
+                Some(_) | None => switch,
+            });
         }
     }
 
