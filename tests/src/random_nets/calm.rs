@@ -20,6 +20,17 @@ const PARTS: usize = 3;
 const TOLD: [&str; 3] = ["d", "t", "s"];
 const SWITCHES: [&str; 3] = ["x0", "x1", "x2"];
 
+/// What the gates of a net wait for.
+#[derive(Clone, Copy, PartialEq)]
+enum Pace {
+    /// An input; then tokens run on.
+    Leads,
+    /// What is told by nets inside.
+    Follows,
+    /// Anything.
+    Mixed,
+}
+
 fn number(value: i32) -> Expression {
     Expression::Number(Value::Int(value))
 }
@@ -69,13 +80,13 @@ impl Maker<'_> {
         self.ints = ["x0", "x1", "x2", "y0", "w0", "w1", "step", "kept"].map(str::to_owned).to_vec();
         self.ints.extend(told);
         self.reals = ["v", "l1", "par"].map(str::to_owned).to_vec();
-        self.writable = vec![int("w0", 0), int("kept", 0)];
+        self.writable = ["w0", "kept", "t0", "t1"].map(|name| int(name, 0)).to_vec();
     }
 
     /// Boxes of rings, by their names; the first of each is marked.
     fn rings(&mut self, levels: usize) -> Vec<Vec<String>> {
         let mut rings = Vec::new();
-        for ring in ["a", "b", "e"].into_iter().take(1 + self.dice.below(3)) {
+        for ring in ["a", "b", "e"].into_iter().take([1, 1, 2, 3][self.dice.below(4)]) {
             let class = self.net.classes.first().filter(|_| ring == "a").map(|class| class.name.clone());
             let names: Vec<String> = (0..2 + self.dice.below(3)).map(|at| format!("{ring}{at}")).collect();
             for (at, name) in names.iter().enumerate() {
@@ -138,6 +149,15 @@ impl Maker<'_> {
         Statement { target: Target::Word(name), value }
     }
 
+    fn pace(&mut self) -> Pace {
+        let leads = if self.net.parts.is_empty() { 3 } else { 1 };
+        match self.dice.roll(4) {
+            0 => Pace::Mixed,
+            roll if roll <= leads => Pace::Leads,
+            _ => Pace::Follows,
+        }
+    }
+
     /// A condition that often comes true: over inputs, and over what nets and boxes tell.
     fn calm_condition(&mut self, asked: &[String]) -> Expression {
         let first = self.calm_truth(asked);
@@ -153,18 +173,20 @@ impl Maker<'_> {
         match self.dice.roll(10) {
             0 => word(self.dice.one(&SWITCHES)),
             1 => not(word(self.dice.one(&SWITCHES))),
-            2..6 => {
-                let told = self.told();
-                let name = told[self.dice.below(told.len())].clone();
-                match self.dice.roll(if name == "step" { 2 } else { 4 }) {
-                    0 | 1 => two(Operator::Equal, word(&name), number(self.dice.roll(3) as i32)),
-                    2 => not(word(&name)),
-                    _ => word(&name),
-                }
-            }
+            2..6 => self.calm_told(),
             6 | 7 => self.calm_tokens(),
             8 => not(self.calm_tokens()),
             _ => self.condition(asked),
+        }
+    }
+
+    fn calm_told(&mut self) -> Expression {
+        let told = self.told();
+        let name = told[self.dice.below(told.len())].clone();
+        match self.dice.roll(if name == "step" { 2 } else { 4 }) {
+            0 | 1 => two(Operator::Equal, word(&name), number(self.dice.roll(3) as i32)),
+            2 => not(word(&name)),
+            _ => word(&name),
         }
     }
 
@@ -215,15 +237,16 @@ impl Maker<'_> {
         way.push("gone".to_owned());
         maker.calm_parts(levels);
         let switch = maker.dice.one(&SWITCHES);
+        let pace = maker.pace();
         let leads_back = maker.dice.once_in(2);
         for (at, pair) in way.windows(2).enumerate() {
-            maker.calm_gate(&format!("way{at}"), &pair[0], &pair[1]);
+            maker.calm_gate(&format!("way{at}"), &pair[0], &pair[1], pace);
             if at == 0 && leads_back {
                 maker.only_if(word(switch));
             }
         }
         if leads_back {
-            maker.calm_gate("back", "p0", "come");
+            maker.calm_gate("back", "p0", "come", Pace::Mixed);
             maker.only_if(not(word(switch)));
         }
         maker.calm_ends();
@@ -254,7 +277,8 @@ impl Maker<'_> {
             }
         }
         // What the innermost net does comes out so, level by level.
-        let onward = [(0, "y0"), (1 + self.dice.below(2), "w1")];
+        let written = ["w0", "w1"][self.dice.below(2)];
+        let onward = [(0, "y0"), (1 + self.dice.below(2), written)];
         for (place, word) in onward.into_iter().filter(|_| at == 0) {
             if self.dice.once_in(2) {
                 outputs[place] = Some(word.to_owned());
@@ -265,12 +289,14 @@ impl Maker<'_> {
 
     /// Gates round each ring, and some across. On its way round a token waits for an input to come and to go.
     fn calm_ways(&mut self, rings: &[Vec<String>]) {
+        let pace = self.pace();
         for ring in rings {
             let switch = self.dice.one(&SWITCHES);
             for (at, from) in ring.iter().enumerate() {
                 let to = &ring[(at + 1) % ring.len()];
-                self.calm_gate(&format!("g_{from}"), from, to);
+                self.calm_gate(&format!("g_{from}"), from, to, pace);
                 match at {
+                    _ if pace == Pace::Follows => {}
                     0 => self.only_if(word(switch)),
                     1 => self.only_if(not(word(switch))),
                     _ => {}
@@ -278,12 +304,12 @@ impl Maker<'_> {
             }
             if self.dice.once_in(3) {
                 let from = &ring[1 + self.dice.below(ring.len() - 1)];
-                self.calm_gate(&format!("h_{from}"), from, &ring[0]);
+                self.calm_gate(&format!("h_{from}"), from, &ring[0], Pace::Mixed);
                 self.only_if(not(word(switch)));
             }
         }
         if let ([a, .., b], true) = (rings, self.dice.once_in(3)) {
-            self.calm_gate("both", &b[0], &b[1]);
+            self.calm_gate("both", &b[0], &b[1], Pace::Mixed);
             self.only_if(word("x0"));
             if let Some(gate) = self.net.gates.last_mut() {
                 gate.before.push((a[0].clone(), 1));
@@ -304,7 +330,7 @@ impl Maker<'_> {
         }
     }
 
-    fn calm_gate(&mut self, name: &str, from: &str, to: &str) {
+    fn calm_gate(&mut self, name: &str, from: &str, to: &str, pace: Pace) {
         let asked = [from.to_owned()];
         let mut gate = Gate {
             name: name.to_owned(),
@@ -312,22 +338,32 @@ impl Maker<'_> {
             after: vec![(to.to_owned(), 1)],
             ..Gate::default()
         };
-        if self.dice.once_in(5) {
-            gate.reads = self.some_box().filter(|path| path != from).map(|path| (path, 1)).into_iter().collect();
-        }
-        if self.dice.once_in(6) {
-            gate.inhibits = self.some_box().filter(|path| path != from).map(|path| (path, 1)).into_iter().collect();
-        }
-        if self.dice.once_in(4) {
-            gate.permits = vec![self.calm_condition(&asked)];
-        }
+        let condition = match pace {
+            Pace::Leads => None,
+            Pace::Follows => Some(self.calm_told()),
+            Pace::Mixed => {
+                self.calm_clauses(&mut gate, from);
+                (!self.dice.once_in(4)).then(|| self.calm_condition(&asked))
+            }
+        };
         if self.dice.once_in(4) {
             gate.priority = self.dice.roll(5) as i64 - 2;
         }
-        let condition = (!self.dice.once_in(4)).then(|| self.calm_condition(&asked));
         let acts = if self.dice.once_in(3) { self.calm_statements(&asked) } else { Vec::new() };
         gate.rules = vec![Rule { condition, routes: Vec::new(), acts }];
         self.net.gates.push(gate);
+    }
+
+    fn calm_clauses(&mut self, gate: &mut Gate, from: &str) {
+        let other = |maker: &mut Self, times: u64| {
+            let path = if maker.dice.once_in(times) { maker.some_box() } else { None };
+            path.filter(|path| path != from).map(|path| (path, 1)).into_iter().collect()
+        };
+        gate.reads = other(self, 5);
+        gate.inhibits = other(self, 6);
+        if self.dice.once_in(4) {
+            gate.permits = vec![self.calm_condition(&[from.to_owned()])];
+        }
     }
 
     /// Every output is written, driven or told; the step is without a time.

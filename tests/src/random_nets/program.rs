@@ -118,12 +118,19 @@ fn undisputed(net: &Net, writes: &mut BTreeMap<String, Value>, (was, mode): (i32
 
 const STOPPED: i32 = 3;
 
-/// For each scan whether nothing changes in it: stretches of both kinds follow one another.
+/// For each scan whether nothing changes in it: stretches of both kinds follow one another, and some have but few
+/// changes between them. In the first scan all inputs get values.
 fn quiet(dice: &mut Dice, scans: usize) -> Vec<bool> {
-    let mut quiet = Vec::new();
+    let mut quiet = vec![false];
+    let mut is_quiet = dice.once_in(2);
     while quiet.len() < scans {
-        let is_quiet = quiet.last().is_some_and(|last: &bool| !last);
-        quiet.resize((quiet.len() + 10 + dice.below(21)).min(scans), is_quiet);
+        let stretch = match (is_quiet, dice.once_in(2)) {
+            (true, _) => 5 + dice.below(16),
+            (false, true) => 1 + dice.below(3),
+            (false, false) => 10 + dice.below(21),
+        };
+        quiet.resize((quiet.len() + stretch).min(scans), is_quiet);
+        is_quiet = !is_quiet;
     }
     quiet
 }
