@@ -14,7 +14,7 @@ use crate::dice::Dice;
 /// Levels of nets inside the outermost one.
 const LEVELS: usize = 3;
 /// Most nets inside one.
-const PARTS: usize = 3;
+const PARTS: usize = 2;
 
 /// What of a net inside the one around it is told: an output that boxes drive, one that is written, a step.
 const TOLD: [&str; 3] = ["d", "t", "s"];
@@ -51,7 +51,7 @@ pub(super) fn net(dice: &mut Dice, name: &str, wanted: Wanted) -> Net {
     maker.net.inputs.push(Input { cell: true, ..input(int("cmd", 0)) });
     maker.net.momentary.push("cmd".to_owned());
     maker.ints.extend(["z[1]", "z[2]", "z[3]", "cmd"].map(str::to_owned));
-    if maker.dice.once_in(2) {
+    if maker.dice.once_in(8) {
         maker.net.outputs.push(int("why", 0));
         maker.net.blocked = Some("why".to_owned());
         maker.ints.push("why".to_owned());
@@ -86,7 +86,7 @@ impl Maker<'_> {
     /// Boxes of rings, by their names; the first of each is marked.
     fn rings(&mut self, levels: usize) -> Vec<Vec<String>> {
         let mut rings = Vec::new();
-        for ring in ["a", "b", "e"].into_iter().take([1, 1, 2, 3][self.dice.below(4)]) {
+        for ring in ["a", "b", "e"].into_iter().take([1, 1, 1, 2, 3][self.dice.below(5)]) {
             let class = self.net.classes.first().filter(|_| ring == "a").map(|class| class.name.clone());
             let names: Vec<String> = (0..2 + self.dice.below(3)).map(|at| format!("{ring}{at}")).collect();
             for (at, name) in names.iter().enumerate() {
@@ -114,7 +114,7 @@ impl Maker<'_> {
             0..8 => Kind::State,
             8..11 => Kind::Operation(self.calm_statements(&own)),
             11 | 12 => Kind::Signal(self.calm_statements(&own)),
-            13 => Kind::Process(Process {
+            13 if self.dice.once_in(3) => Kind::Process(Process {
                 begins: self.calm_statements(&own),
                 until: Some(self.calm_condition(&own)),
                 within: None,
@@ -122,6 +122,12 @@ impl Maker<'_> {
             }),
             _ => Kind::Capacity(Some(1 + self.dice.below(3)), self.order(place.class.is_some())),
         };
+        // Where tokens wait for an input, something is written once they have come.
+        let waits = name.ends_with('0') || name.ends_with('1');
+        if waits && self.dice.once_in(2) {
+            let value = number(if marked { 1 } else { 2 });
+            place.kind = Kind::Operation(vec![Statement { target: Target::Word("w0".to_owned()), value }]);
+        }
         let room = if let Kind::Capacity(Some(size), Order::Fifo | Order::Lifo) = place.kind { size } else { 1 };
         place.marked = if marked { 1 + self.dice.below(room) } else { 0 };
         if self.dice.once_in(4) {
@@ -206,7 +212,7 @@ impl Maker<'_> {
         if levels == 0 {
             return;
         }
-        while self.net.parts.len() < PARTS && self.dice.once_in(2) {
+        while self.net.parts.len() < PARTS && !self.dice.once_in(if self.net.parts.is_empty() { 5 } else { 2 }) {
             let at = self.net.parts.len();
             let name = format!("{}v{at}", self.net.name);
             let mut maker = Maker::new(self.dice, &name);
