@@ -119,7 +119,6 @@ const SUFFIXES: &[&str] = &[
     "hold",
     "inputs",
     "leave",
-    "leaves",
     "levels",
     "mode",
     "net",
@@ -137,7 +136,9 @@ const SUFFIXES: &[&str] = &[
     "touch",
     "try",
     "vacant",
+    "vacant_but_exit",
     "wait",
+    "wake",
     "words",
     "writes",
 ];
