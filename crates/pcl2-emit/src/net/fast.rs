@@ -2,7 +2,7 @@
 //! once.
 //!
 //! A scan does what that of the player does, in the same order. Between its phases stand sets of boxes and gates:
-//! `ready` (gates whose first box is excited), `open` (gates whose input is as they ask), `waiting` (boxes with something
+//! `ready` (gates whose first box is excited; `begun`: when the gate phase began), `open` (gates whose input is as they ask), `waiting` (boxes with something
 //! to do in the box phase), `touched` (boxes that a gate took from or put into; `moved`: the words of that set), `shown`
 //! (boxes that count among those that drive outputs), `outputs` (those whose drivers changed).
 //!
