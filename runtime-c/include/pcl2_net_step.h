@@ -31,10 +31,10 @@ static inline int64_t pcl2_net_seconds(int32_t seconds)
     return seconds > 0 ? seconds * INT64_C(1000000000) : 0;
 }
 
-/* A time in seconds as nanoseconds; one that is no number never ends. */
+/* A time in seconds as nanoseconds; a bad one never ends. */
 static inline int64_t pcl2_net_time(pcl2_real seconds)
 {
-    return seconds == seconds ? pcl2_nanoseconds(seconds) : INT64_MAX;
+    return pcl2_is_bad(seconds) ? INT64_MAX : pcl2_nanoseconds(seconds);
 }
 
 /* Whether a time is over, nanoseconds. What the reals cannot tell from it is over too, so that a box in float is excited

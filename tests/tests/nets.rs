@@ -479,9 +479,12 @@ GATE g : a -> b
 GATE h : p -> c
 END
 ";
-    let trace = traced(&[("bad.net", net)], "k,t\n0,nan\n3,0.5\n", &["--steps", "5", "--period", "0.5"]);
-    assert_eq!(column(&trace, "q"), [0., 0., 0., 1., 1.]);
-    assert_eq!(column(&trace, "r"), [0., 0., 0., 1., 1.]);
+    for bad in ["nan", "inf", "-inf"] {
+        let stimulus = format!("k,t\n0,{bad}\n3,0.5\n");
+        let trace = traced(&[("bad.net", net)], &stimulus, &["--steps", "5", "--period", "0.5"]);
+        assert_eq!(column(&trace, "q"), [0., 0., 0., 1., 1.], "{bad}");
+        assert_eq!(column(&trace, "r"), [0., 0., 0., 1., 1.], "{bad}");
+    }
 }
 
 /// A token that waits takes the room that has come; what comes in the same scan waits after it.

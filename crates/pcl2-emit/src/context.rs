@@ -44,11 +44,13 @@ impl<'a> Context<'a> {
         self.nets().next().is_some()
     }
 
-    /// The headers that the forms of its nets need.
-    pub(crate) fn net_headers(&self) -> impl Iterator<Item = &'static str> {
-        let uses = |form: NetForm| self.nets().any(|net| net.form == form);
-        let step = uses(NetForm::Fast).then_some("pcl2_net_step.h");
-        step.into_iter().chain(uses(NetForm::Table).then_some("pcl2_net.h"))
+    /// The header that its nets need.
+    pub(crate) fn net_header(&self) -> Option<&'static str> {
+        let header = match self.layout.net_form {
+            NetForm::Fast => "pcl2_net_step.h",
+            NetForm::Table => "pcl2_net.h",
+        };
+        self.has_nets().then_some(header)
     }
 
     /// What the nets of the program keep.

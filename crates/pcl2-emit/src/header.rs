@@ -106,7 +106,7 @@ fn body_struct<'c>(out: &mut String, cx: &'c Context<'_>, unit: UnitId, declared
         return;
     };
     let decl = cx.program.decl(*decl);
-    let fast = layout.net.as_ref().filter(|net| net.form == NetForm::Fast);
+    let fast = layout.net.as_ref().filter(|_| cx.layout.net_form == NetForm::Fast);
     let classes = decl.net.as_deref().zip(fast.map(|layout| &layout.names));
     if let Some((net, names)) = classes {
         classes::structs(out, net, names, declared);

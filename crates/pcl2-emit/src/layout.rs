@@ -142,6 +142,8 @@ pub(crate) struct Layout<'a> {
     pub(crate) scratch: Scratch,
     /// Size and alignment of the whole.
     pub(crate) extent: Extent,
+    /// How its nets become C.
+    pub(crate) net_form: NetForm,
     /// By part: the tag of its struct and the name of its function.
     pub(crate) part_tags: Vec<String>,
     /// The names at file scope that are taken.
@@ -190,6 +192,7 @@ fn behind_tag(net: Option<&Net>) -> Vec<String> {
 /// Lays a program out.
 pub(crate) fn layout<'a>(program: &'a Program, name: &str, codes: &[Code<'a>], form: NetForm) -> Layout<'a> {
     let mut builder = Builder::new(program, name, codes);
+    builder.layout.net_form = form;
     builder.mark_used();
     for unit in (1..program.units.len()).rev() {
         builder.body(unit);
@@ -389,10 +392,8 @@ impl<'a, 'c> Builder<'a, 'c> {
     fn net_scans(&mut self, unit: &Unit, members: &[Member<'_>]) -> Vec<Option<String>> {
         let mut scans = Vec::with_capacity(unit.blocks.len());
         for (block, member) in unit.blocks.iter().zip(members) {
-            let fast = |unit: UnitId| {
-                self.layout.units[unit.0 as usize].net.as_ref().is_some_and(|net| net.form == NetForm::Fast)
-            };
-            let net = block.unit.is_some_and(fast);
+            let is_net = |unit: UnitId| self.layout.units[unit.0 as usize].net.is_some();
+            let net = self.layout.net_form == NetForm::Fast && block.unit.is_some_and(is_net);
             scans.push(net.then(|| self.tag(&format!("scan_{}", member.name))));
         }
         scans
@@ -474,7 +475,7 @@ impl<'a, 'c> Builder<'a, 'c> {
         } else {
             crate::size::own_params(&mut extent, self.program, unit, &layout.facts);
             if let (Some(net), Some(layout)) = (nets::net_of(self.program, unit), &layout.net) {
-                nets::extent(&mut extent, net, layout, width);
+                nets::extent(&mut extent, net, layout, self.layout.net_form, width);
             }
         }
         extent

@@ -58,7 +58,7 @@ pub struct Options<'a> {
 /// How nets become C. Both give the same trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NetForm {
-    /// Code of each gate, tried only when its box is marked.
+    /// Code of each gate, tried only when its box is marked and its input is there.
     #[default]
     Fast,
     /// A table that the player of the runtime walks: less flash for many gates.

@@ -62,7 +62,7 @@ pub(crate) fn collect(cx: &Context<'_>, known: &[&Decl], user: &[(String, String
         collector.port("io.c");
     }
     collector.put("pcl2/pcl2_config.h".to_owned(), config(cx));
-    for header in cx.net_headers() {
+    if let Some(header) = cx.net_header() {
         collector.resolve("", header);
     }
     for decl in layout::used_decls(cx.program, &cx.layout) {

@@ -69,7 +69,7 @@ fn includes(out: &mut String, cx: &Context<'_>, offset: &str, has_file: &dyn Fn(
             push_new(&mut headers, header);
         }
     }
-    headers.extend(cx.net_headers().map(str::to_owned));
+    headers.extend(cx.net_header().map(str::to_owned));
     for header in &headers {
         let _ = writeln!(out, "#include \"{header}\"");
     }

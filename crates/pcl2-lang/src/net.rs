@@ -386,11 +386,6 @@ impl Net {
         &self.boxes[id.0 as usize]
     }
 
-    /// Whether it has modes or tells of permissives.
-    pub fn operated(&self) -> bool {
-        self.operation.is_some() || self.blocked.is_some()
-    }
-
     /// The ports whose value a word takes in each scan.
     pub fn latched(&self) -> impl Iterator<Item = (u32, WordId)> {
         self.momentary.iter().copied().chain(self.operation.iter().map(|operation| operation.mode))

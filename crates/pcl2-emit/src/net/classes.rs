@@ -159,7 +159,9 @@ pub(crate) fn extent(extent: &mut Extent, net: &Net, width: Width) {
 
 /// Writes the new tokens of classes that are used in `text`.
 pub(crate) fn fresh(out: &mut String, program: &Program, net: &Net, names: &ClassNames, text: &str) {
-    for (class, name) in net.classes.iter().zip(&names.classes).filter(|(_, name)| text.contains(&name.fresh)) {
+    for (class, name) in
+        net.classes.iter().zip(&names.classes).filter(|(_, name)| text.contains(&format!("{};", name.fresh)))
+    {
         let mut values = Vec::new();
         for attribute in &class.attributes {
             let mut value = String::new();

@@ -130,9 +130,10 @@ fn put(out: &mut String, net: &NetBody<'_, '_, '_>) {
 fn take(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let (tag, n) = (net.tag(), net.net.boxes.len());
     let within = net.layout.keeps("within");
+    let counts = within && (0..n).any(|i| !is_end(net, BoxId(i as u32)));
     let _ = writeln!(out, "/* Takes the first token of a box. Tells whether it did. */");
     let _ = writeln!(out, "static int32_t {tag}_force_take(struct {tag} *self, int32_t number)\n{{");
-    if within {
+    if counts {
         let _ = write!(
             out,
             "    int32_t marked = 0;

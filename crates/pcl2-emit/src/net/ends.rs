@@ -55,16 +55,21 @@ pub(super) fn commit(out: &mut String, net: &NetBody<'_, '_, '_>) {
     if keeps("outputs") {
         outputs(out, net);
     }
-    if keeps("inside") {
-        out.push_str("    self->net.inside = 0;\n");
-        for (part, _, layout) in net.parts() {
-            let inner = member(net, part);
-            let awake = layout.net.as_ref().map_or_else(Vec::new, |net| awake(net, &format!("self->{inner}.")));
-            let _ = writeln!(out, "    self->net.restless |= self->{inner}.net.restless;");
-            let _ = writeln!(out, "    self->net.inside |= {};", awake.join(" | "));
-        }
-    }
     out.push_str("}\n\n");
+}
+
+/// A net inside that is awake keeps this one awake.
+fn stay_awake(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    if !net.layout.keeps("inside") {
+        return;
+    }
+    out.push_str("    self->net.inside = 0;\n");
+    for (part, _, layout) in net.parts() {
+        let inner = member(net, part);
+        let awake = layout.net.as_ref().map_or_else(Vec::new, |net| awake(net, &format!("self->{inner}.")));
+        let _ = writeln!(out, "    self->net.restless |= self->{inner}.net.restless;");
+        let _ = writeln!(out, "    self->net.inside |= {};", awake.join(" | "));
+    }
 }
 
 /// Begins a loop over the sets of touched boxes.
@@ -150,6 +155,9 @@ fn show(out: &mut String, net: &NetBody<'_, '_, '_>) {
 
 pub(super) fn levels(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
+    if !net.net.actives.is_empty() {
+        active(out, net);
+    }
     let _ = writeln!(out, "/* The end of a scan: outputs that follow from nets inside and from the marking. */");
     let _ = writeln!(
         out,
@@ -185,13 +193,8 @@ pub(super) fn levels(out: &mut String, net: &NetBody<'_, '_, '_>) {
         };
     }
     modes::end(out, net);
+    stay_awake(out, net);
     out.push_str("}\n\n");
-    if !net.net.actives.is_empty() {
-        let at = out.rfind("/* The end of a scan:").unwrap_or(out.len());
-        let mut text = String::new();
-        active(&mut text, net);
-        out.insert_str(at, &text);
-    }
 }
 
 /// A word of a net inside, seen from here.
@@ -279,6 +282,7 @@ fn active(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let _ = writeln!(out, "    const int32_t marked{i} = {text}0;");
         let _ =
             writeln!(out, "    if (marked{i} != self->net.active[{i}]) {{\n        self->net.active[{i}] = marked{i};");
+        out.push_str("        self->net.restless |= 1;\n");
         if net.layout.timed {
             let _ = writeln!(out, "        self->net.active_since[{i}] = self->net.now;");
         }

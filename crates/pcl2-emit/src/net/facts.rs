@@ -297,8 +297,8 @@ impl NetFacts {
         let stays = before.iter().any(|arc| arc.place == place) && after.iter().any(|arc| arc.place == place);
         // What a statement of the gate itself sees is in hand, or there as before.
         let unseen = self.last_looker[place.0 as usize].is_none_or(|last| last <= gate);
-        let obeys = net.operation.is_some();
-        plain && !obeys && !stays && unseen && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
+        let operated = net.operation.is_some();
+        plain && !operated && !stays && unseen && self.last_watcher[place.0 as usize].is_none_or(|last| last < gate)
     }
 
     /// Whether any write is tracked.

@@ -2,9 +2,13 @@
 //! once.
 //!
 //! A scan does what that of the player does, in the same order. Between its phases stand sets of boxes and gates:
-//! `ready` (gates whose first box is excited), `begun` (those of them when the gate phase began), `waiting` (boxes with
-//! something to do in the box phase), `touched` (boxes that a gate took from or put into), `shown` (boxes that count among
-//! those that drive outputs).
+//! `ready` (gates whose first box is excited; `begun`: when the gate phase began), `open` (gates whose input is as they ask), `waiting` (boxes with something
+//! to do in the box phase), `touched` (boxes that a gate took from or put into; `moved`: the words of that set), `shown`
+//! (boxes that count among those that drive outputs), `outputs` (those whose drivers changed).
+//!
+//! What a later scan can see and this one changed after its box phase sets `restless`, `waits` or `inside`, in the net and
+//! in each one around it: without these and without a change of inputs a scan is passed over. A net inside that was passed
+//! over wakes when the net around it moves its tokens; what it told in the last scan is over then.
 
 use super::facts::{generates, waits};
 use super::layout::{NetLayout, part_unit};
@@ -141,13 +145,18 @@ fn tables(out: &mut String, net: &NetBody<'_, '_, '_>) {
     // Boxes that only gates at once touch are looked up nowhere.
     let after = |i: usize| if facts.late[i] { readied[i].as_slice() } else { &[] };
     let drives = net.layout.keeps("drives");
+    let driven_late = driven.iter().zip(&facts.late).filter(|(_, late)| **late);
+    let outputs: usize = driven_late.map(|(list, _)| list.len()).sum();
+    let outputs_type = if outputs <= usize::from(u16::MAX) { "uint16_t" } else { "int32_t" };
     let also = if drives { " and outputs" } else { "" };
     let _ = writeln!(
         out,
         "/* By box of {name}: the tokens that make it ready, 0 if it waits; where its gates{also} begin. */"
     );
     let _ = writeln!(out, "static const struct {{\n    {} full;\n    uint16_t gates;", full_type(net.net));
-    out.push_str(if drives { "    uint16_t outputs;\n" } else { "" });
+    if drives {
+        let _ = writeln!(out, "    {outputs_type} outputs;");
+    }
     let _ = writeln!(out, "}} {tag}_places[{}] = {{", net.net.boxes.len() + 1);
     let (mut gates, mut outputs) = (0, 0);
     let row = |out: &mut String, full: u32, gates: usize, outputs: usize| {

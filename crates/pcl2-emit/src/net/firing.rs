@@ -83,10 +83,8 @@ fn deposit(
             tokens::make(out, net, arc.place, indent);
         }
         if net.layout.facts.puts_at_once(net.net, way.index, arc.place) {
-            let targets = moves.iter().flat_map(|tokens| &tokens.to).filter(|other| *other == to);
-            let once = targets.count() == 1;
             tokens::lay(out, net, source, arc.place, indent);
-            put_at_once(out, net, arc, once.then_some(&mut *toggled), indent);
+            put_at_once(out, net, arc, toggled, indent);
         } else {
             put(out, net, arc, source, (room, &way.index.to_string()), indent);
         }
@@ -117,33 +115,29 @@ fn take_at_once(
         let _ = writeln!(out, "{indent}self->box[{name}] -= {};", gates::weight(arc.weight));
         let _ = writeln!(out, "{indent}if (self->box[{name}] == 0) {{");
         let inner = format!("{indent}    ");
-        ready(out, net, arc.place, "&= ~", &inner);
+        unready(out, net, arc.place, &inner);
         shows(out, net, arc.place, "-=", &inner);
         let _ = writeln!(out, "{indent}}}");
     }
 }
 
-/// A box of one token, which no gate after it asks for. Without `toggled` the rule puts another token there, too.
+/// A box of one token, which no gate after it asks for.
 fn put_at_once(
     out: &mut String,
     net: &NetBody<'_, '_, '_>,
     arc: &Arc,
-    toggled: Option<&mut BTreeMap<usize, u32>>,
+    toggled: &mut BTreeMap<usize, u32>,
     indent: &str,
 ) {
-    let sign = if toggled.is_some() { "=" } else { "+=" };
-    let _ = writeln!(out, "{indent}self->box[{}] {sign} {};", net.place(arc.place), gates::weight(arc.weight));
-    match toggled {
-        Some(toggled) => toggle(toggled, net, arc.place),
-        None => ready(out, net, arc.place, "|= ", indent),
-    }
+    let _ = writeln!(out, "{indent}self->box[{}] = {};", net.place(arc.place), gates::weight(arc.weight));
+    toggle(toggled, net, arc.place);
     shows(out, net, arc.place, "+=", indent);
 }
 
-/// Gates whose first box is this one become ready, or are no more, from the next scan on.
-fn ready(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, change: &str, indent: &str) {
+/// Gates whose first box is this one are ready no more, from the next scan on.
+fn unready(out: &mut String, net: &NetBody<'_, '_, '_>, place: BoxId, indent: &str) {
     for (set, gates) in &net.layout.facts.readied[place.0 as usize] {
-        let _ = writeln!(out, "{indent}self->net.ready[{set}] {change}UINT32_C(0x{gates:08x});");
+        let _ = writeln!(out, "{indent}self->net.ready[{set}] &= ~UINT32_C(0x{gates:08x});");
     }
 }
 

@@ -27,6 +27,7 @@ pub(super) fn functions(out: &mut String, statics: &mut Statics, net: &NetBody<'
         let _ =
             writeln!(out, "static int32_t {tag}_gates_{}(struct {tag} *self, uint32_t ready{forced})\n{{", word + 1);
         out.push_str("    int32_t fired = 0;\n");
+        out.push_str(if commands::fires(net) { "    (void)forced;\n" } else { "" });
         for (group, members) in gates.chunks(GROUP).enumerate() {
             let set = (0..members.len()).fold(0, |set, i| set | bit(group * GROUP + i));
             let _ = writeln!(out, "    if ((ready & UINT32_C(0x{set:08x})) != 0) {{");
@@ -256,7 +257,7 @@ pub(super) fn box_room(net: &NetBody<'_, '_, '_>, id: BoxId, more: i32) -> Vec<S
     if let (Kind::Macro(part), true) = (&place.kind, more <= 0) {
         // The token in the exit goes, and nothing else may be marked.
         let part = part.0 as usize;
-        return vec![format!("{}_leaves(&self->{})", fast::part_tag(net, part), fast::member(net, part))];
+        return vec![format!("{}_vacant_but_exit(&self->{})", fast::part_tag(net, part), fast::member(net, part))];
     }
     let Some(capacity) = place.capacity.filter(|_| more > 0) else {
         return Vec::new();

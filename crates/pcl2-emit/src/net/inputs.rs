@@ -20,7 +20,7 @@ const RUN: usize = 3;
 
 /// Whether a block of the program is a net whose inputs are compared where it is called.
 pub(crate) fn is_top(cx: &Context<'_>, unit: UnitId, inner: UnitId) -> bool {
-    unit.0 == 0 && cx.unit_layout(inner).net.as_ref().is_some_and(|net| net.form == NetForm::Fast)
+    unit.0 == 0 && cx.layout.net_form == NetForm::Fast && cx.unit_layout(inner).net.is_some()
 }
 
 /// Writes the functions that make the scans of the program's nets, each called only when something may happen.

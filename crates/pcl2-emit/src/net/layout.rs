@@ -50,8 +50,6 @@ pub(crate) struct NetLayout {
     pub(crate) called: bool,
     /// It is a block of the program somewhere.
     pub(crate) top: bool,
-    /// How it becomes C.
-    pub(crate) form: NetForm,
     /// Of the fast form: what its code can leave out.
     pub(crate) facts: NetFacts,
     /// Of a macro: what nets around it do with it.
@@ -119,7 +117,6 @@ const SUFFIXES: &[&str] = &[
     "hold",
     "inputs",
     "leave",
-    "leaves",
     "levels",
     "mode",
     "net",
@@ -137,7 +134,9 @@ const SUFFIXES: &[&str] = &[
     "touch",
     "try",
     "vacant",
+    "vacant_but_exit",
     "wait",
+    "wake",
     "words",
     "writes",
 ];
@@ -204,15 +203,14 @@ pub(crate) fn settle(program: &Program, units: &mut [UnitLayout<'_>], form: NetF
             continue;
         };
         (layout.called, layout.top) = called[index];
-        layout.form = form;
         layout.facts = facts::of(program, net, unit, layout.held, part[index]);
         // Under an operator something may happen in each scan.
         layout.facts.ticking |= layout.moded || net.blocked.is_some();
-        layout.fields = match layout.form {
+        layout.fields = match form {
             NetForm::Table => table_fields(net, layout),
             NetForm::Fast => fast_fields(net, layout),
         };
-        if layout.form == NetForm::Fast {
+        if form == NetForm::Fast {
             let first = layout.held + net.words.len() + 1;
             let hands = classes::hands(net, &layout.names);
             name_hands(&mut units[index], first, &hands);
@@ -375,9 +373,9 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
 }
 
 /// Adds what the struct `net` takes.
-pub(crate) fn extent(extent: &mut Extent, net: &Net, layout: &NetLayout, width: Width) {
+pub(crate) fn extent(extent: &mut Extent, net: &Net, layout: &NetLayout, form: NetForm, width: Width) {
     fields_extent(extent, &layout.fields, width);
-    if layout.form == NetForm::Fast {
+    if form == NetForm::Fast {
         classes::extent(extent, net, width);
     }
 }

@@ -47,6 +47,10 @@ impl<'b, 'c, 'a> NetBody<'b, 'c, 'a> {
         Some(NetBody { body, net: body.decl.net.as_deref()?, layout: body.layout.net.as_ref()? })
     }
 
+    fn form(&self) -> NetForm {
+        self.body.cx.layout.net_form
+    }
+
     fn tag(&self) -> &'c str {
         &self.body.layout.tag
     }
@@ -123,7 +127,7 @@ pub(crate) fn start(out: &mut String, net: &NetBody<'_, '_, '_>) {
         let tokens = i32::try_from(place.initial).unwrap_or(i32::MAX);
         let _ = writeln!(out, "    self->box[{name}] = {tokens};");
     }
-    if net.layout.form == NetForm::Fast {
+    if net.form() == NetForm::Fast {
         fast::start(out, net);
         modes::start(out, net);
         classes::start(out, net.body.cx.program, net.net, &net.layout.names);
@@ -155,11 +159,11 @@ pub(crate) fn tune(out: &mut String, net: &NetBody<'_, '_, '_>) {
 
 /// Writes the functions of a net that make its scan. Its own inputs are arguments of the last of them.
 pub(crate) fn scan(out: &mut String, statics: &mut Statics, net: &NetBody<'_, '_, '_>, head: &str) {
-    match net.layout.form {
+    match net.form() {
         NetForm::Table => table::functions(out, statics, net),
         NetForm::Fast => fast::functions(out, statics, net),
     }
-    let (table, layout) = (net.layout.form == NetForm::Table, net.layout);
+    let (table, layout) = (net.form() == NetForm::Table, net.layout);
     if !table && (layout.called || layout.top) {
         fast::scan(out, net);
     }

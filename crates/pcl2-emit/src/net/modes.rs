@@ -74,7 +74,7 @@ pub(super) fn functions(out: &mut String, net: &NetBody<'_, '_, '_>) {
         return;
     };
     if operation.commands.iter().any(Option::is_some) {
-        refuse(out, net);
+        record(out, net);
     }
     mode(out, net, operation);
     if !operation.stops.is_empty() {
@@ -82,7 +82,7 @@ pub(super) fn functions(out: &mut String, net: &NetBody<'_, '_, '_>) {
     }
 }
 
-fn refuse(out: &mut String, net: &NetBody<'_, '_, '_>) {
+fn record(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let tag = net.tag();
     let _ = write!(
         out,

@@ -165,7 +165,7 @@ static inline int32_t {tag}_vacant(const struct {tag} *self)
         let _ = write!(
             out,
             "/* Whether nothing but the exit is marked, so that a token may enter when that one leaves. */
-static inline int32_t {tag}_leaves(const struct {tag} *self)
+static inline int32_t {tag}_vacant_but_exit(const struct {tag} *self)
 {{
     int32_t tokens = 0;
     for (int32_t place = 0; place < {n}; place++) {{
@@ -177,15 +177,17 @@ static inline int32_t {tag}_leaves(const struct {tag} *self)
 "
         );
     }
+    if moves.entered || moves.left || moves.emptied {
+        wake(out, net);
+    }
     if moves.entered {
         let _ = write!(
             out,
             "/* A token enters. */
 static inline void {tag}_enter(struct {tag} *self)
 {{
+    {tag}_wake(self);
     {tag}_put(self, {entry}, 1{room}{by});
-    self->net.go = 1;
-    self->net.restless = 1;
 }}
 
 "
@@ -197,10 +199,9 @@ static inline void {tag}_enter(struct {tag} *self)
             "/* The token leaves. */
 static inline void {tag}_leave(struct {tag} *self)
 {{
+    {tag}_wake(self);
     self->net.taken[{exit}] = self->box[{exit}];
     {tag}_touch(self, {exit});
-    self->net.go = 1;
-    self->net.restless = 1;
 }}
 
 "
@@ -218,6 +219,7 @@ fn empty(out: &mut String, net: &NetBody<'_, '_, '_>) {
         "/* Every token inside goes. */
 static inline void {tag}_empty(struct {tag} *self)
 {{
+    {tag}_wake(self);
     for (int32_t place = 0; place < {n}; place++) {{
         self->net.taken[place] = self->box[place];
         {tag}_touch(self, place);
@@ -227,5 +229,27 @@ static inline void {tag}_empty(struct {tag} *self)
     for (part, _, layout) in net.parts().filter(|(part, ..)| is_macro(net, *part)) {
         let _ = writeln!(out, "    {}_empty(&self->{});", layout.tag, member(net, part));
     }
-    out.push_str("    self->net.go = 1;\n    self->net.restless = 1;\n}\n\n");
+    out.push_str("}\n\n");
+}
+
+/// Writes how a net goes on that had nothing to do in this scan: what it told in the last one is over.
+fn wake(out: &mut String, net: &NetBody<'_, '_, '_>) {
+    let tag = net.tag();
+    let mut over = String::new();
+    if net.layout.keeps("wrote") {
+        over.push_str("        memset(self->net.wrote, 0, sizeof self->net.wrote);\n");
+    }
+    for (part, ..) in net.parts() {
+        let inner = member(net, part);
+        let _ = writeln!(over, "        self->{inner}.status = 0;\n        self->{inner}.net.go = 0;");
+    }
+    let _ = writeln!(
+        out,
+        "/* The net around it moves a token: there is something to do in this scan. */
+static inline void {tag}_wake(struct {tag} *self)\n{{"
+    );
+    if !over.is_empty() {
+        let _ = writeln!(out, "    if (!self->net.go) {{\n{over}    }}");
+    }
+    out.push_str("    self->net.go |= 1;\n    self->net.restless |= 1;\n}\n\n");
 }

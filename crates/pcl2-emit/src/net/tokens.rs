@@ -327,7 +327,7 @@ pub(super) fn cross(out: &mut String, net: &NetBody<'_, '_, '_>, way: &Crossing<
 pub(super) fn next_functions(out: &mut String, net: &NetBody<'_, '_, '_>, text: &str) {
     let tag = net.tag();
     for (i, place) in net.net.boxes.iter().enumerate() {
-        let Some(next) = net.layout.names.next[i].as_ref().filter(|next| text.contains(&format!("{next}("))) else {
+        let Some(next) = net.layout.names.next[i].as_ref().filter(|next| text.contains(&format!(" {next}("))) else {
             continue;
         };
         let (sign, attribute) = match place.order {

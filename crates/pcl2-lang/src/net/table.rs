@@ -47,7 +47,7 @@ pub fn table<'a>(net: &Net, inner: &dyn Fn(PartId) -> Option<(&'a Net, usize)>) 
     builder.kept_words();
     builder.levels();
     builder.actives();
-    if net.operated() {
+    if net.operation.is_some() || net.blocked.is_some() {
         builder.operated();
     }
     builder.start(List::Parts);

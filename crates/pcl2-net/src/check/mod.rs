@@ -116,7 +116,6 @@ impl<'a> Builder<'a> {
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Builder<'a> {
         decl.bad = Some(BadRule::Logic);
-        symbols.intern("");
         symbols.intern(BOX_OUTPUT);
         Builder {
             decl,
