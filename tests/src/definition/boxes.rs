@@ -6,7 +6,6 @@ use super::instance::{Hand, Instance, Mode, NOBODY};
 use super::model::{Generate, Kind, Process, Statement};
 use super::statements::run;
 use super::tokens::World;
-use super::unsettled::Unsettled;
 
 /// The boxes of a net in the order of the file, then those of its parts.
 pub(super) fn phase(instance: &mut Instance, world: &mut World) {
@@ -93,9 +92,6 @@ fn begin(instance: &mut Instance, place: usize, acts: &[Statement], world: &mut 
 fn has_passed(instance: &Instance, time: &Expression, since: i64, hand: &Hand, world: &World) -> bool {
     let found = time.value(&|operand| instance.find(operand, hand, world));
     let nanoseconds = found.value.real() * 1e9;
-    if found.bad {
-        world.mind(Unsettled::BadTime);
-    }
     !found.bad && (instance.now - since) as f64 >= nanoseconds.round()
 }
 
@@ -141,9 +137,6 @@ fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut 
     instance.boxes[place].held = holds;
     if !edge {
         return;
-    }
-    if got_room {
-        world.mind(Unsettled::EdgeAfterRoom);
     }
     if has_room(instance, place, generate) {
         add(instance, place, generate, world);

@@ -1,12 +1,11 @@
 //! The gate phase: every ABORT, then gates by priority.
 
-use super::expression::Expression;
+use super::expression::{Expression, Value};
 use super::hands;
 use super::instance::{Arrival, Hand, Instance, Mode, NOBODY, Rank};
-use super::model::{Gate, Kind, Net, Route, Rule, Statement, Target};
+use super::model::{Gate, Kind, Net, Rule};
 use super::statements::run;
 use super::tokens::{Token, World};
-use super::unsettled::Unsettled;
 
 /// Whether gates are tried in this scan.
 fn are_tried(mode: Mode) -> bool {
@@ -29,18 +28,15 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
     let Some(at) = net.part_of(place) else { return };
     let Some(abort) = &net.parts[at].abort else { return };
     let to = net.place(&abort.to);
-    let emptied = instance.start[place].iter().any(|token| instance.taken.contains(token));
-    if emptied && instance.holds(&abort.condition, &[], world) {
-        world.mind(Unsettled::AbortInside);
-    }
-    let marked = instance.start[place].iter().find(|token| !instance.taken.contains(*token)).copied();
-    let Some(token) = marked else { return };
+    // One that was emptied from outside in this scan has none left.
+    let Some(token) = instance.first_left(place, world) else { return };
     if !instance.holds(&abort.condition, &[], world) || !instance.has_room(to, 1, 0) {
         return;
     }
     let rank = NOBODY;
     world.note("a macro aborted");
     instance.take_all(place);
+    instance.clear_commands(&abort.condition);
     run(instance, &abort.acts, rank, &[(net.boxes[place].name.clone(), token)], world);
     instance.put(to, token, rank);
     instance.filled[to] += 1;
@@ -78,14 +74,12 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     if !instance.is_enabled(gate, world) {
         return false;
     }
-    instance.mind_reads(gate, world);
     let rule = instance.rule_that_holds(gate, world);
     let first = || gate.rules.first().map(|rule| (rule, instance.hands(gate, rule, world).swap_remove(0)));
     let Some((rule, hand)) = (if forced { rule.or_else(first) } else { rule }) else { return false };
     let deposits = deposits(instance.net, gate, rule);
     let gains: Vec<(usize, usize)> =
         deposits.iter().map(|(place, weight)| (*place, instance.gain(gate, *place, *weight))).collect();
-    instance.mind_reentry(gate, world);
     if !gains.iter().all(|(place, gain)| instance.has_room(*place, *gain, taken_from(instance.net, gate, *place))) {
         return false;
     }
@@ -168,7 +162,6 @@ fn fire(instance: &mut Instance, gate: &Gate, rule: &Rule, hand: &Hand, rank: Ra
     if let Some(condition) = &rule.condition {
         instance.clear_commands(condition);
     }
-    mind_replaced(net, gate, rule, world);
     run(instance, &rule.acts, rank, hand, world);
     let in_hand = |name: &str| hand.iter().find(|(from, _)| from == name).map(|(_, token)| *token);
     if rule.routes.is_empty() {
@@ -187,25 +180,6 @@ fn fire(instance: &mut Instance, gate: &Gate, rule: &Rule, hand: &Hand, rank: Ra
     for routed in &rule.routes {
         let source = routed.from.as_deref();
         route(instance, gate, source, &routed.to, source.and_then(in_hand), rank, world);
-    }
-}
-
-/// Statements see the token that was taken, and run before tokens are put.
-fn mind_replaced(net: &Net, gate: &Gate, rule: &Rule, world: &World) {
-    let stays = |name: &String| {
-        let own = |route: &Route| route.from.as_ref() == Some(name);
-        let first = gate.before.first().is_some_and(|(first, _)| first == name);
-        match rule.routes.iter().find(|route| route.to.contains(name)) {
-            Some(route) => own(route),
-            None => !rule.routes.is_empty() || first,
-        }
-    };
-    for (name, _) in gate.before.iter().filter(|(name, _)| gate.after.iter().any(|(after, _)| after == name)) {
-        let with_class = net.boxes[net.place(name)].class.is_some();
-        let writes = |act: &Statement| matches!(&act.target, Target::Attribute(place, _) if place == name);
-        if with_class && rule.acts.iter().any(writes) && !stays(name) {
-            world.mind(Unsettled::Replaced);
-        }
     }
 }
 
@@ -250,16 +224,6 @@ impl Instance<'_> {
         gain == 0 || self.net.room(place).is_none_or(|room| self.start[place].len() + self.filled[place] + gain <= room)
     }
 
-    /// No token enters while anything inside is marked.
-    fn mind_reentry(&self, gate: &Gate, world: &World) {
-        for (name, _) in gate.before.iter().filter(|(name, _)| gate.after.iter().any(|(after, _)| after == name)) {
-            let place = self.net.place(name);
-            if self.net.part_of(place).is_some() && !self.has_room(place, 0, 1) {
-                world.mind(Unsettled::EntryBesideOthers);
-            }
-        }
-    }
-
     /// How many tokens more a box has when a gate fires.
     fn gain(&self, gate: &Gate, place: usize, weight: usize) -> usize {
         weight.saturating_sub(taken_from(self.net, gate, place))
@@ -298,9 +262,11 @@ impl Instance<'_> {
         self.arriving.push(Arrival { place, token, rank });
     }
 
-    /// Commands that a condition reads become 0.
+    /// Commands that a condition reads become 0 at once.
     fn clear_commands(&mut self, condition: &Expression) {
-        let read = self.net.momentary.iter().filter(|name| condition.reads(name));
-        self.cleared.extend(read.cloned());
+        for name in self.net.momentary.iter().filter(|name| condition.reads(name)) {
+            self.words.insert(name.clone(), Value::Int(0));
+            self.cleared.push(name.clone());
+        }
     }
 }

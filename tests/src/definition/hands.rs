@@ -5,7 +5,6 @@ use super::gates::attempt;
 use super::instance::{Instance, Mode, NOBODY};
 use super::model::{Kind, Net};
 use super::tokens::World;
-use super::unsettled::Unsettled;
 
 /// The mode of a net: its own, else that of the net around it.
 pub(super) fn mode(instance: &Instance, around: Mode) -> Mode {
@@ -21,14 +20,6 @@ pub(super) fn mode(instance: &Instance, around: Mode) -> Mode {
 /// A command by its place in MODE: 1 go, 2 fire, 3 put, 4 take.
 fn command(instance: &Instance, at: usize) -> i32 {
     instance.net.mode.get(at).map_or(0, |name| instance.words[name].int())
-}
-
-/// A command is obeyed or refused in the scan in which it comes.
-pub(super) fn mind_the_end_of_a_stop(instance: &Instance, world: &World) {
-    let ends = instance.before == Mode::Stopped && instance.mode != Mode::Stopped;
-    if ends && (1..=4).any(|at| command(instance, at) != 0) {
-        world.mind(Unsettled::CommandAfterStop);
-    }
 }
 
 /// Every command is cleared; those that the mode does not know are refused.

@@ -5,7 +5,6 @@ use super::arrivals;
 use super::expression::{Expression, Found, Value};
 use super::model::{Input, Net, Part, Word};
 use super::tokens::{Token, World};
-use super::unsettled::Unsettled;
 use super::{boxes, gates, hands, outputs};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -90,8 +89,6 @@ pub(super) struct Instance<'n> {
     pub(super) arriving: Vec<Arrival>,
     /// Outputs that statements wrote in this scan: the value, and whose it is.
     pub(super) written: BTreeMap<String, (Value, Rank)>,
-    /// Outputs that were written and counted on in this scan.
-    pub(super) counted: BTreeSet<String>,
     /// Outputs and locals that were written in this scan.
     pub(super) touched: BTreeSet<String>,
     /// Commands that were given in this scan, or read by a gate that fired: they become 0.
@@ -131,11 +128,6 @@ impl<'n> Run<'n> {
             self.inputs.insert(name.clone(), Value::Int(0));
         }
         (self.row(), self.world.faults.clone())
-    }
-
-    /// What came up so far that is not settled.
-    pub fn unsettled(&self) -> Option<Unsettled> {
-        self.world.unsettled.get()
     }
 
     /// How often what happened so far.
@@ -181,7 +173,6 @@ impl<'n> Instance<'n> {
             filled: vec![0; net.boxes.len()],
             arriving: Vec::new(),
             written: BTreeMap::new(),
-            counted: BTreeSet::new(),
             touched: BTreeSet::new(),
             cleared: Vec::new(),
             active: Vec::new(),
@@ -213,7 +204,6 @@ impl<'n> Instance<'n> {
     /// A scan begins, for all nets inside too.
     fn begin(&mut self) {
         self.written.clear();
-        self.counted.clear();
         self.touched.clear();
         self.cleared.clear();
         self.held_back = 0;
@@ -234,7 +224,6 @@ impl<'n> Instance<'n> {
         self.before = self.mode;
         self.words.extend(inputs);
         self.mode = hands::mode(self, around);
-        hands::mind_the_end_of_a_stop(self, world);
         hands::refuse_those_of_other_modes(self, world);
     }
 
@@ -260,23 +249,14 @@ impl<'n> Instance<'n> {
     /// What an operand is.
     pub(super) fn find(&self, operand: &Expression, hand: &[(String, Token)], world: &World) -> Found {
         match operand {
-            Expression::Word(name) => {
-                if self.cleared.contains(name) && self.net.momentary.contains(name) {
-                    world.mind(Unsettled::ClearedCommand);
-                }
-                Found::from(self.words[name])
-            }
+            Expression::Word(name) => Found::from(self.words[name]),
             Expression::Tokens(path) => {
                 let (instance, place) = self.at(path);
-                instance.mind_new_tokens(place, world);
-                Found::from(Value::Int(i32::try_from(instance.start[place].len()).unwrap_or(i32::MAX)))
+                Found::from(Value::Int(i32::try_from(instance.boxes[place].tokens.len()).unwrap_or(i32::MAX)))
             }
             Expression::Attribute(name, attribute) => match self.token_called(name, hand, world) {
                 Some(token) => Found::from(world.attribute(token, attribute)),
-                None => {
-                    world.mind(Unsettled::EmptyBox);
-                    self.attribute_of_nothing(name, attribute)
-                }
+                None => Found::from(self.attribute_of_a_new_token(name, attribute)),
             },
             Expression::Cause(name) => Found::from(Value::Int(self.boxes[self.net.place(name)].cause)),
             Expression::Number(_) | Expression::Not(_) | Expression::Minus(_) | Expression::Two(..) => {
@@ -302,33 +282,25 @@ impl<'n> Instance<'n> {
         }
     }
 
-    /// The token in hand, else the first one of the box.
+    /// The token in hand, else the first one of the box that no gate has taken.
     pub(super) fn token_called(&self, name: &str, hand: &[(String, Token)], world: &World) -> Option<Token> {
         let in_hand = hand.iter().find(|(from, _)| from == name).map(|(_, token)| *token);
-        let place = self.net.place(name);
-        if in_hand.is_none() {
-            if self.net.part_of(place).is_some() {
-                world.mind(Unsettled::MacroFromAfar);
-            }
-            self.mind_new_tokens(place, world);
-            if self.start[place].iter().any(|token| self.taken.contains(token)) {
-                world.mind(Unsettled::FirstIsTaken);
-            }
-        }
-        in_hand.or_else(|| world.in_order(self.net, place, &self.start[place]).first().copied())
+        in_hand.or_else(|| self.first_left(self.net.place(name), world))
     }
 
-    /// What a name means is the marking at the start of the phase.
-    fn mind_new_tokens(&self, place: usize, world: &World) {
-        if self.boxes[place].tokens != self.start[place] {
-            world.mind(Unsettled::NewToken);
-        }
+    /// The first token of a box that no gate has taken; a macro's is the one in its exit while that is marked.
+    pub(super) fn first_left(&self, place: usize, world: &World) -> Option<Token> {
+        let tokens = world.in_order(self.net, place, &self.boxes[place].tokens);
+        let own = tokens.into_iter().find(|token| !self.taken.contains(token))?;
+        let inside = self.net.part_of(place).map(|part| &self.parts[part]);
+        let at_the_exit = inside.and_then(|inside| inside.boxes[inside.net.exit()?].tokens.first());
+        Some(at_the_exit.copied().unwrap_or(own))
     }
 
-    /// The page does not say what this is. Nothing that is not there makes a condition true.
-    fn attribute_of_nothing(&self, name: &str, attribute: &str) -> Found {
+    /// What an attribute of a box without tokens is.
+    fn attribute_of_a_new_token(&self, name: &str, attribute: &str) -> Value {
         let class = self.net.boxes[self.net.place(name)].class.as_ref().and_then(|class| self.net.class(class));
         let word = class.and_then(|class| class.attributes.iter().find(|word| word.name == attribute));
-        Found { value: word.map_or(Value::Int(0), |word| word.first), bad: true }
+        word.map_or(Value::Int(0), |word| word.first)
     }
 }

@@ -15,10 +15,8 @@ mod outputs;
 mod rules;
 mod statements;
 mod tokens;
-mod unsettled;
 
 pub use instance::Run;
-pub use unsettled::Unsettled;
 
 /// What the health record can tell of a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

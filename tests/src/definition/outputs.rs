@@ -1,35 +1,28 @@
 //! The end of a scan: outputs follow the marking.
 
+use super::Fault;
 use super::expression::Value;
-use super::instance::{Instance, Mode};
+use super::instance::{Instance, Mode, Rank};
 use super::model::Stop;
 use super::tokens::World;
-use super::unsettled::Unsettled;
+
+/// Gates of nets inside come after those of the net around them.
+const AFTER_ALL: Rank = (i64::MIN, 0);
 
 /// For the nets inside, then for the one around them.
-pub(super) fn follow(instance: &mut Instance, world: &World) {
+pub(super) fn follow(instance: &mut Instance, world: &mut World) {
     instance.parts.iter_mut().for_each(|part| follow(part, world));
     if instance.mode == Mode::Stopped {
-        mind_what_parts_write(instance, world);
+        from_parts(instance, world);
         stopped(instance);
         return;
     }
-    from_parts(instance);
+    from_parts(instance, world);
     driven(instance);
     active(instance);
     blocked(instance);
     let net = instance.net;
     instance.shown = net.outputs.iter().map(|word| (word.name.clone(), instance.words[&word.name])).collect();
-}
-
-/// Written outputs are after a stop what they were before it.
-fn mind_what_parts_write(instance: &Instance, world: &World) {
-    let runs = |inside: &Instance| inside.mode != Mode::Stopped || inside.before != Mode::Stopped;
-    let mut parts = instance.net.parts.iter().zip(&instance.parts);
-    if parts.any(|(part, inside)| !part.net.mode.is_empty() && runs(inside) && part.outputs.iter().any(Option::is_some))
-    {
-        world.mind(Unsettled::WrittenMeanwhile);
-    }
 }
 
 /// What is not named is 0; that of ACTIVE stays.
@@ -51,7 +44,7 @@ fn stopped(instance: &mut Instance) {
 }
 
 /// Values that nets inside write, when they do; those of ACTIVE always, and those that a stop changes.
-fn from_parts(instance: &mut Instance) {
+fn from_parts(instance: &mut Instance, world: &mut World) {
     let net = instance.net;
     for (part, inside) in net.parts.iter().zip(&instance.parts) {
         for (output, to) in part.net.outputs.iter().zip(&part.outputs) {
@@ -59,7 +52,19 @@ fn from_parts(instance: &mut Instance) {
             let is_active = part.net.active.iter().any(|active| active.fills(&output.name));
             let stops = !part.net.mode.is_empty() && [inside.before, inside.mode].contains(&Mode::Stopped);
             if is_active || stops || inside.touched.contains(&output.name) {
-                instance.words.insert(to.clone(), inside.shown[&output.name].like(instance.words[to]));
+                let value = inside.shown[&output.name].like(instance.words[to]);
+                let is_written = inside.written.contains_key(&output.name);
+                if is_written && net.outputs.iter().any(|output| output.name == *to) {
+                    if instance.written.contains_key(to) {
+                        if !instance.words[to].same(value) {
+                            world.note("two different writes across nets");
+                            world.faults.push(Fault::Conflict);
+                        }
+                        continue;
+                    }
+                    instance.written.insert(to.clone(), (value, AFTER_ALL));
+                }
+                instance.words.insert(to.clone(), value);
                 instance.touched.insert(to.clone());
             }
         }

@@ -5,7 +5,6 @@ use super::expression::Value;
 use super::instance::{Instance, Rank};
 use super::model::{Statement, Target};
 use super::tokens::{Token, World};
-use super::unsettled::Unsettled;
 
 /// Runs statements one after the other; each sees what those before it wrote.
 pub(super) fn run(
@@ -39,15 +38,10 @@ pub(super) fn run(
 /// in no conflict.
 fn write(instance: &mut Instance, name: &str, value: Value, reads_itself: bool, rank: Rank, world: &mut World) {
     let is_output = instance.net.outputs.iter().any(|output| output.name == name);
-    if is_output && reads_itself && instance.written.contains_key(name) {
-        instance.counted.insert(name.to_owned());
-    }
     if is_output && !reads_itself {
-        if let Some((before, whose)) = instance.written.get(name).copied() {
-            if instance.counted.contains(name) {
-                world.mind(Unsettled::WriteAfterCount);
-            }
-            if !before.same(value) {
+        if let Some((_, whose)) = instance.written.get(name).copied() {
+            // It may have been counted on since.
+            if !instance.words[name].same(value) {
                 world.note("two different writes");
                 world.faults.push(Fault::Conflict);
             }

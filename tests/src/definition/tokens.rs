@@ -3,8 +3,7 @@
 use super::Fault;
 use super::expression::Value;
 use super::model::{Class, Kind, Net, Order};
-use super::unsettled::Unsettled;
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -17,8 +16,6 @@ pub(super) struct World {
     tokens: Vec<BTreeMap<String, Value>>,
     /// Faults of this scan.
     pub(super) faults: Vec<Fault>,
-    /// What happened in this run that is not settled.
-    pub(super) unsettled: Cell<Option<Unsettled>>,
     /// How often what happened.
     pub(super) happened: RefCell<BTreeMap<&'static str, usize>>,
     /// Nanoseconds from scan to scan.
@@ -28,18 +25,7 @@ pub(super) struct World {
 impl World {
     /// Without a token yet.
     pub(super) fn new(period: i64) -> World {
-        World {
-            tokens: Vec::new(),
-            faults: Vec::new(),
-            unsettled: Cell::new(None),
-            happened: RefCell::default(),
-            period,
-        }
-    }
-
-    /// Something came up that is not settled.
-    pub(super) fn mind(&self, what: Unsettled) {
-        self.unsettled.set(Some(what));
+        World { tokens: Vec::new(), faults: Vec::new(), happened: RefCell::default(), period }
     }
 
     /// Counts what happens, so that a comparison can tell what it has seen.
@@ -60,11 +46,6 @@ impl World {
         self.tokens.len() - 1
     }
 
-    /// Whether attributes of two tokens are the same.
-    pub(super) fn are_alike(&self, a: Token, b: Token) -> bool {
-        self.tokens[a].iter().zip(&self.tokens[b]).all(|((_, a), (_, b))| a.same(*b))
-    }
-
     pub(super) fn attribute(&self, token: Token, name: &str) -> Value {
         self.tokens[token][name]
     }
@@ -77,15 +58,20 @@ impl World {
     /// Tokens of a box in the order in which it gives them out.
     pub(super) fn in_order(&self, net: &Net, place: usize, tokens: &[Token]) -> Vec<Token> {
         let mut tokens = tokens.to_vec();
-        let by = |a: Token, b: Token, name: &str| {
-            let (a, b) = (self.attribute(a, name).real(), self.attribute(b, name).real());
-            a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+        // A bad attribute is none: its token goes last.
+        let key = |token: &Token, name: &str| Some(self.attribute(*token, name).real()).filter(|real| real.is_finite());
+        let by = |a: &Token, b: &Token, name: &str, first: Ordering| match (key(a, name), key(b, name)) {
+            (Some(a), Some(b)) if a < b => first,
+            (Some(a), Some(b)) if a > b => first.reverse(),
+            (Some(_), Some(_)) | (None, None) => Ordering::Equal,
+            (Some(_), None) => Ordering::Less,
+            (None, Some(_)) => Ordering::Greater,
         };
         match order_of(net, place) {
             Order::Fifo => {}
             Order::Lifo => tokens.reverse(),
-            Order::Least(name) => tokens.sort_by(|a, b| by(*a, *b, name)),
-            Order::Most(name) => tokens.sort_by(|a, b| by(*b, *a, name)),
+            Order::Least(name) => tokens.sort_by(|a, b| by(a, b, name, Ordering::Less)),
+            Order::Most(name) => tokens.sort_by(|a, b| by(a, b, name, Ordering::Greater)),
         }
         tokens
     }

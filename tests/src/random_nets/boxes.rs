@@ -3,7 +3,7 @@
 use super::Maker;
 use super::conditions::{two, word};
 use crate::definition::expression::{Expression, Operator, Value};
-use crate::definition::model::{Gate, Generate, Kind, NetBox, Order, Process, Rule, Statement, Target, Word};
+use crate::definition::model::{Class, Gate, Generate, Kind, NetBox, Order, Process, Rule, Statement, Target, Word};
 
 pub(super) fn plain(name: &str, kind: Kind) -> NetBox {
     NetBox { name: name.to_owned(), kind, class: None, marked: 0, with: Vec::new(), drives: Vec::new(), repeated: None }
@@ -32,13 +32,13 @@ impl Maker<'_> {
         place.kind = match self.dice.roll(12) {
             0..3 => Kind::State,
             3 | 4 if class.is_none() && self.dice.once_in(4) => Kind::Capacity(None, Order::Fifo),
-            3 | 4 => Kind::Capacity(Some(size), self.order(class.is_some())),
+            3 | 4 => Kind::Capacity(Some(size), self.order(class.as_ref())),
             5 => Kind::Time(self.time()),
             6 => Kind::Count(size),
             7 => Kind::Operation(self.some_statements(&own)),
             8 => Kind::Signal(self.some_statements(&own)),
             9 | 10 => Kind::Process(self.process(name)),
-            _ => Kind::Generate(self.generate(size, &own, class.is_some())),
+            _ => Kind::Generate(self.generate(size, &own, class.as_ref())),
         };
         if matches!(place.kind, Kind::Count(_)) {
             place.class = None;
@@ -82,14 +82,13 @@ impl Maker<'_> {
         }
     }
 
-    pub(super) fn order(&mut self, with_class: bool) -> Order {
-        // Both classes have an int `a`.
-        let attribute = "a".to_owned();
-        match self.dice.roll(if with_class { 4 } else { 2 }) {
-            0 => Order::Fifo,
-            1 => Order::Lifo,
-            2 => Order::Least(attribute),
-            _ => Order::Most(attribute),
+    pub(super) fn order(&mut self, class: Option<&Class>) -> Order {
+        let attribute = class.map(|class| class.attributes[self.dice.below(class.attributes.len())].name.clone());
+        match (attribute, self.dice.roll(4)) {
+            (Some(name), 0) => Order::Least(name),
+            (Some(name), 1) => Order::Most(name),
+            (_, roll) if roll % 2 == 0 => Order::Fifo,
+            (_, _) => Order::Lifo,
         }
     }
 
@@ -114,9 +113,7 @@ impl Maker<'_> {
         let own = [name.to_owned()];
         let begins = self.statements(1, &own);
         let until = (!self.dice.once_in(3)).then(|| self.condition(&own));
-        // Not settled: the fast form of a net with a PROCESS and without any time is no C. So there is one.
-        let is_timeless = !self.reals.iter().any(|name| name == "at");
-        let within = (is_timeless || self.dice.once_in(2)).then(|| if is_timeless { word("par") } else { self.time() });
+        let within = self.dice.once_in(2).then(|| self.time());
         let mut after = Vec::new();
         if self.dice.once_in(2) {
             after.extend(self.statements(1, &own));
@@ -136,15 +133,15 @@ impl Maker<'_> {
         }
     }
 
-    fn generate(&mut self, size: usize, own: &[String], with_class: bool) -> Generate {
+    fn generate(&mut self, size: usize, own: &[String], class: Option<&Class>) -> Generate {
         let when = self.condition(&[]);
-        Generate { size, order: self.order(with_class), when, begins: self.statements(1, own) }
+        Generate { size, order: self.order(class), when, begins: self.statements(1, own) }
     }
 
     /// Tokens with attributes that wait in an order, and a gate that chooses among them.
     pub(super) fn queue(&mut self) {
         let Some(class) = self.net.classes.first().cloned() else { return };
-        let mut place = plain("queue", Kind::Capacity(Some(2 + self.dice.below(3)), self.order(true)));
+        let mut place = plain("queue", Kind::Capacity(Some(2 + self.dice.below(3)), self.order(Some(&class))));
         place.class = Some(class.name.clone());
         place.marked = self.dice.below(3);
         let mut source = plain("new", Kind::State);
@@ -153,8 +150,10 @@ impl Maker<'_> {
         let own = ["new".to_owned()];
         let mut any = || word(["x0", "x1", "z[1]", "z[2]", "w0"][self.dice.below(5)]);
         let (when, value, wanted) = (any(), any(), any());
-        let attribute = |place: &str| Target::Attribute(place.to_owned(), "a".to_owned());
-        let begins = vec![Statement { target: attribute("new"), value }, self.statement(&own)];
+        let due = word(["v", "u[1]", "u[2]"][self.dice.below(3)]);
+        let attribute = |name: &str| Target::Attribute("new".to_owned(), name.to_owned());
+        let mut begins = vec![Statement { target: attribute("a"), value }, self.statement(&own)];
+        begins.push(Statement { target: attribute("b"), value: due });
         let generate = Generate { size: 1, order: Order::Fifo, when, begins };
         if let Some(source) = self.net.boxes.last_mut() {
             source.kind = Kind::Generate(generate);

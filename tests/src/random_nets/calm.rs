@@ -107,6 +107,7 @@ impl Maker<'_> {
 
     fn calm_box(&mut self, name: &str, class: Option<String>, marked: bool) {
         let mut place = plain(name, Kind::State);
+        let described = class.as_ref().and_then(|class| self.net.class(class)).cloned();
         place.class = class;
         self.net.boxes.push(place.clone());
         let own = [name.to_owned()];
@@ -120,7 +121,7 @@ impl Maker<'_> {
                 within: None,
                 after: Vec::new(),
             }),
-            _ => Kind::Capacity(Some(1 + self.dice.below(3)), self.order(place.class.is_some())),
+            _ => Kind::Capacity(Some(1 + self.dice.below(3)), self.order(described.as_ref())),
         };
         // Where tokens wait for an input, something is written once they have come.
         let waits = name.ends_with('0') || name.ends_with('1');

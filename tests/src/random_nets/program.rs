@@ -24,7 +24,7 @@ impl Stimulus {
 
     /// The same with nothing in these scans.
     fn with_quiet(dice: &mut Dice, net: &Net, quiet: &[bool]) -> Stimulus {
-        let (mut mode, mut was) = (0, 0);
+        let mut mode = 0;
         let mut one = |scan: usize| {
             let mut writes = BTreeMap::new();
             if quiet[scan] {
@@ -35,8 +35,7 @@ impl Stimulus {
                     writes.extend(written(dice, input));
                 }
             }
-            was = mode;
-            if scan > 0 && dice.once_in(10) {
+            if dice.once_in(10) {
                 mode = [0, 0, 0, 1, 2, 2, 3][dice.below(7)];
             }
             for (at, name) in net.mode.iter().enumerate() {
@@ -45,7 +44,6 @@ impl Stimulus {
                     writes.insert(name.clone(), Value::Int(value));
                 }
             }
-            undisputed(net, &mut writes, (was, mode));
             writes
         };
         Stimulus { scans: (0..quiet.len()).map(&mut one).collect() }
@@ -102,21 +100,6 @@ impl Stimulus {
         text
     }
 }
-
-/// Not settled: what a stop does to the cells of an operator. Until then none is written while a net is stopped, when a
-/// stop begins no command waits, and nets do not begin with a stop.
-fn undisputed(net: &Net, writes: &mut BTreeMap<String, Value>, (was, mode): (i32, i32)) {
-    if was == STOPPED || mode == STOPPED {
-        for name in net.momentary.iter().chain(net.mode.iter().skip(1)) {
-            writes.remove(name);
-            if was != STOPPED {
-                writes.insert(name.clone(), Value::Int(0));
-            }
-        }
-    }
-}
-
-const STOPPED: i32 = 3;
 
 /// For each scan whether nothing changes in it: stretches of both kinds follow one another, and some have but few
 /// changes between them. In the first scan all inputs get values.
