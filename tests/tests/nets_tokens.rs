@@ -57,6 +57,23 @@ END
     assert_eq!(column(&trace, "again"), column(&trace, "seen"));
 }
 
+/// The cause of a process box is seen by a gate that reads the box, though another gate has taken the token.
+#[test]
+fn a_cause_outlasts_the_token() {
+    let net = "int n, int m = caused ( : )
+PROCESS p UNTIL 1 MARKED
+AFTER p.ready = 1
+GATE takes : p ->
+DO n = n + 1
+GATE reads : -> READ p IF NOT p.cause
+DO m = m + 1
+END
+";
+    let trace = traced(&[("caused.net", net)], "", &["--steps", "4"]);
+    assert_eq!(column(&trace, "n"), [0., 1., 1., 1.]);
+    assert_eq!(column(&trace, "m"), [0., 1., 1., 1.]);
+}
+
 /// A new token is new, also in the box whose token the gate took away.
 #[test]
 fn a_new_token_has_the_first_values() {

@@ -278,7 +278,9 @@ impl Reader<'_, '_> {
             };
             let before = gate.before.iter().any(|arc| arc.place == place);
             let read = gate.reads.iter().any(|tested| tested.part.is_none() && tested.place == place);
-            if (before || read) && !looks.contains(&place) {
+            // The cause of a process box is its own, whatever becomes of the token.
+            let carries = self.builder.net.place(place).class.is_some();
+            if (before || read) && carries && !looks.contains(&place) {
                 looks.push(place);
             }
         }
