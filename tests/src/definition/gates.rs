@@ -45,6 +45,9 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
 /// Gates that can fire do; in manual mode the operator's commands are obeyed instead. Then the same in the nets inside.
 pub(super) fn gates(instance: &mut Instance, holder_is_marked: bool, world: &mut World) {
     let net = instance.net;
+    if instance.mode == Mode::Step(true) {
+        world.note("a step");
+    }
     if are_tried(instance.mode) {
         for gate in in_order(net) {
             attempt(instance, gate, false, world);
@@ -85,7 +88,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     }
     let permits = |term: &Expression| instance.holds(term, &hand, world);
     if let (false, Some(term)) = (forced, gate.permits.iter().position(|term| !permits(term))) {
-        world.note("a permissive that holds");
+        world.note("a permissive that holds a gate back");
         if instance.held_back == 0 {
             instance.held_back = number_of(instance.net, at, term);
         }

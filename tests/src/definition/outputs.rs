@@ -14,19 +14,20 @@ pub(super) fn follow(instance: &mut Instance, world: &mut World) {
     instance.parts.iter_mut().for_each(|part| follow(part, world));
     if instance.mode == Mode::Stopped {
         from_parts(instance, world);
-        stopped(instance);
+        stopped(instance, world);
         return;
     }
     from_parts(instance, world);
     driven(instance);
     active(instance);
-    blocked(instance);
+    blocked(instance, world);
     let net = instance.net;
     instance.shown = net.outputs.iter().map(|word| (word.name.clone(), instance.words[&word.name])).collect();
 }
 
 /// What is not named is 0; that of ACTIVE stays.
-fn stopped(instance: &mut Instance) {
+fn stopped(instance: &mut Instance, world: &World) {
+    world.note("a stop");
     let net = instance.net;
     if let Some(name) = &net.blocked {
         instance.words.insert(name.clone(), Value::Int(0));
@@ -36,7 +37,7 @@ fn stopped(instance: &mut Instance) {
         let is_active = net.active.iter().any(|active| active.fills(&output.name));
         match named {
             Some(Stop::Is(value)) => drop(instance.shown.insert(output.name.clone(), value)),
-            Some(Stop::Hold) => {}
+            Some(Stop::Hold) => world.note("HOLD"),
             None if is_active => {}
             None => drop(instance.shown.insert(output.name.clone(), output.first.zero())),
         }
@@ -100,8 +101,11 @@ fn active(instance: &mut Instance) {
 }
 
 /// Between steps it stays.
-fn blocked(instance: &mut Instance) {
+fn blocked(instance: &mut Instance, world: &World) {
     if let (Some(name), false) = (&instance.net.blocked, instance.mode == Mode::Step(false)) {
+        if instance.held_back != 0 {
+            world.note("BLOCKED tells");
+        }
         instance.words.insert(name.clone(), Value::Int(instance.held_back));
     }
 }
