@@ -44,17 +44,20 @@ fn stopped(instance: &mut Instance, world: &World) {
     }
 }
 
-/// Values that nets inside write, when they do; those of ACTIVE always, and those that a stop changes.
+/// Values that nets inside write, when they do; those of ACTIVE always, and those that a stop changes. Of two writes of an
+/// output that of the net around comes first, then that of the part that stands first.
 fn from_parts(instance: &mut Instance, world: &mut World) {
     let net = instance.net;
     for (part, inside) in net.parts.iter().zip(&instance.parts) {
         for (output, to) in part.net.outputs.iter().zip(&part.outputs) {
             let Some(to) = to else { continue };
             let is_active = part.net.active.iter().any(|active| active.fills(&output.name));
-            let stops = !part.net.mode.is_empty() && [inside.before, inside.mode].contains(&Mode::Stopped);
+            // A stop writes when it begins, and when it ends what was there before it.
+            let stops = !part.net.mode.is_empty() && (inside.before == Mode::Stopped) != (inside.mode == Mode::Stopped);
             if is_active || stops || inside.touched.contains(&output.name) {
                 let value = inside.shown[&output.name].like(instance.words[to]);
-                let is_written = inside.written.contains_key(&output.name);
+                // What counts inside is a write of this net's word all the same.
+                let is_written = !is_active && !part.net.is_driven(&output.name);
                 if is_written && net.outputs.iter().any(|output| output.name == *to) {
                     if instance.written.contains_key(to) {
                         if !instance.words[to].same(value) {
