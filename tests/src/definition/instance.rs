@@ -30,6 +30,7 @@ pub(super) enum Mode {
 pub(super) type Rank = (i64, i64);
 
 /// A statement of an ABORT, or of a token that no gate has put.
+///
 /// It counts as one of the gate that is tried first of all.
 pub(super) const NOBODY: Rank = (i64::MAX, 0);
 
