@@ -71,6 +71,15 @@ fn in_order(net: &Net) -> Vec<usize> {
     order
 }
 
+/// The gate that is tried first of all.
+pub(super) fn first_rank(net: &Net) -> Rank {
+    in_order(net).first().map_or(NOBODY, |at| rank_of(net, *at))
+}
+
+fn rank_of(net: &Net, gate: usize) -> Rank {
+    (net.gates[gate].priority, -i64::try_from(gate).unwrap_or(i64::MAX))
+}
+
 /// Fires a gate if it can; one that is forced asks neither conditions nor permissives.
 pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &mut World) -> bool {
     let gate = &instance.net.gates[at];
@@ -96,7 +105,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     }
     gains.iter().for_each(|(place, gain)| instance.filled[*place] += gain);
     note_firing(instance, gate, rule, &hand, world);
-    fire(instance, gate, rule, &hand, (gate.priority, -i64::try_from(at).unwrap_or(i64::MAX)), world);
+    fire(instance, gate, rule, &hand, rank_of(instance.net, at), world);
     true
 }
 
