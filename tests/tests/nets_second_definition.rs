@@ -135,30 +135,40 @@ fn compare(seed: u64, seen: &mut Seen) {
     let folder = tempfile::tempdir().unwrap();
     let (trace, told) = traced(folder.path(), &net, &stimulus).unwrap_or_else(|told| panic!("net {seed}: {told}"));
     let Some(found) = difference(&net, &stimulus, &trace, &told, seen) else { return };
+    eprintln!("net {seed}: {found}; what is the smallest one that differs?");
     let (net, stimulus) = smallest(folder.path(), net, stimulus);
     let files: Vec<String> = text::files(&net).into_values().collect();
     panic!("net {seed}: {found}; smaller, it differs too:\n\n{}\n{}", files.join("\n"), stimulus.text(&net));
 }
 
 /// Each of these must have happened, or the comparison is of little.
-const WANTED: [&str; 17] = [
+const WANTED: [&str; 26] = [
+    "BLOCKED tells",
     "COUNT emptied",
+    "HOLD",
     "a command in manual mode",
+    "a command refused",
     "a firing",
     "a firing by a later rule",
     "a firing with READ",
     "a firing with a weight",
+    "a lost edge",
     "a macro aborted",
     "a macro entered",
     "a macro left",
-    "a permissive that holds",
+    "a permissive that holds a gate back",
     "a process complete",
+    "a process that is late",
     "a process that waits on",
+    "a step",
+    "a stop",
     "a token made",
     "a token taken that is not the first",
     "a token with attributes taken",
     "an edge that waits",
+    "something forced",
     "two different writes",
+    "two different writes across nets",
 ];
 
 #[test]

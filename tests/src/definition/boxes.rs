@@ -113,6 +113,7 @@ fn go_on(instance: &mut Instance, place: usize, process: &Process, world: &mut W
         return;
     }
     if !done {
+        world.note("a process that is late");
         world.faults.push(Fault::Late);
     }
     let state = &mut instance.boxes[place];
@@ -141,6 +142,7 @@ fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut 
     if has_room(instance, place, generate) {
         add(instance, place, generate, world);
     } else if instance.boxes[place].waits {
+        world.note("a lost edge");
         world.faults.push(Fault::Lost);
     } else {
         world.note("an edge that waits");

@@ -45,6 +45,9 @@ fn abort(instance: &mut Instance, place: usize, world: &mut World) {
 /// Gates that can fire do; in manual mode the operator's commands are obeyed instead. Then the same in the nets inside.
 pub(super) fn gates(instance: &mut Instance, holder_is_marked: bool, world: &mut World) {
     let net = instance.net;
+    if instance.mode == Mode::Step(true) {
+        world.note("a step");
+    }
     if are_tried(instance.mode) {
         for gate in in_order(net) {
             attempt(instance, gate, false, world);
@@ -68,6 +71,15 @@ fn in_order(net: &Net) -> Vec<usize> {
     order
 }
 
+/// The gate that is tried first of all.
+pub(super) fn first_rank(net: &Net) -> Rank {
+    in_order(net).first().map_or(NOBODY, |at| rank_of(net, *at))
+}
+
+fn rank_of(net: &Net, gate: usize) -> Rank {
+    (net.gates[gate].priority, -i64::try_from(gate).unwrap_or(i64::MAX))
+}
+
 /// Fires a gate if it can; one that is forced asks neither conditions nor permissives.
 pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &mut World) -> bool {
     let gate = &instance.net.gates[at];
@@ -85,7 +97,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     }
     let permits = |term: &Expression| instance.holds(term, &hand, world);
     if let (false, Some(term)) = (forced, gate.permits.iter().position(|term| !permits(term))) {
-        world.note("a permissive that holds");
+        world.note("a permissive that holds a gate back");
         if instance.held_back == 0 {
             instance.held_back = number_of(instance.net, at, term);
         }
@@ -93,7 +105,7 @@ pub(super) fn attempt(instance: &mut Instance, at: usize, forced: bool, world: &
     }
     gains.iter().for_each(|(place, gain)| instance.filled[*place] += gain);
     note_firing(instance, gate, rule, &hand, world);
-    fire(instance, gate, rule, &hand, (gate.priority, -i64::try_from(at).unwrap_or(i64::MAX)), world);
+    fire(instance, gate, rule, &hand, rank_of(instance.net, at), world);
     true
 }
 

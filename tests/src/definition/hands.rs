@@ -46,6 +46,7 @@ pub(super) fn commands(instance: &mut Instance, holder_is_marked: bool, world: &
             world.note("a command in manual mode");
             let number = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
             let done = number.is_some_and(|number| obey(instance, at, number, holder_is_marked, world));
+            world.note(if done { "something forced" } else { "a command refused" });
             world.faults.push(if done { Fault::Forced } else { Fault::Refused });
         }
     }

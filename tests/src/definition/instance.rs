@@ -31,7 +31,7 @@ pub(super) type Rank = (i64, i64);
 
 /// A statement of an ABORT, or of a token that no gate has put.
 ///
-/// The page does not say what its priority is.
+/// It counts as one of the gate that is tried first of all.
 pub(super) const NOBODY: Rank = (i64::MAX, 0);
 
 /// Tokens that go to a box at the end of the phase.

@@ -14,19 +14,20 @@ pub(super) fn follow(instance: &mut Instance, world: &mut World) {
     instance.parts.iter_mut().for_each(|part| follow(part, world));
     if instance.mode == Mode::Stopped {
         from_parts(instance, world);
-        stopped(instance);
+        stopped(instance, world);
         return;
     }
     from_parts(instance, world);
     driven(instance);
     active(instance);
-    blocked(instance);
+    blocked(instance, world);
     let net = instance.net;
     instance.shown = net.outputs.iter().map(|word| (word.name.clone(), instance.words[&word.name])).collect();
 }
 
 /// What is not named is 0; that of ACTIVE stays.
-fn stopped(instance: &mut Instance) {
+fn stopped(instance: &mut Instance, world: &World) {
+    world.note("a stop");
     let net = instance.net;
     if let Some(name) = &net.blocked {
         instance.words.insert(name.clone(), Value::Int(0));
@@ -36,24 +37,27 @@ fn stopped(instance: &mut Instance) {
         let is_active = net.active.iter().any(|active| active.fills(&output.name));
         match named {
             Some(Stop::Is(value)) => drop(instance.shown.insert(output.name.clone(), value)),
-            Some(Stop::Hold) => {}
+            Some(Stop::Hold) => world.note("HOLD"),
             None if is_active => {}
             None => drop(instance.shown.insert(output.name.clone(), output.first.zero())),
         }
     }
 }
 
-/// Values that nets inside write, when they do; those of ACTIVE always, and those that a stop changes.
+/// Values that nets inside write, when they do; those of ACTIVE always, and those that a stop changes. Of two writes of an
+/// output that of the net around comes first, then that of the part that stands first.
 fn from_parts(instance: &mut Instance, world: &mut World) {
     let net = instance.net;
     for (part, inside) in net.parts.iter().zip(&instance.parts) {
         for (output, to) in part.net.outputs.iter().zip(&part.outputs) {
             let Some(to) = to else { continue };
             let is_active = part.net.active.iter().any(|active| active.fills(&output.name));
-            let stops = !part.net.mode.is_empty() && [inside.before, inside.mode].contains(&Mode::Stopped);
+            // A stop writes when it begins, and when it ends what was there before it.
+            let stops = !part.net.mode.is_empty() && (inside.before == Mode::Stopped) != (inside.mode == Mode::Stopped);
             if is_active || stops || inside.touched.contains(&output.name) {
                 let value = inside.shown[&output.name].like(instance.words[to]);
-                let is_written = inside.written.contains_key(&output.name);
+                // What counts inside is a write of this net's word all the same.
+                let is_written = !is_active && !part.net.is_driven(&output.name);
                 if is_written && net.outputs.iter().any(|output| output.name == *to) {
                     if instance.written.contains_key(to) {
                         if !instance.words[to].same(value) {
@@ -100,8 +104,11 @@ fn active(instance: &mut Instance) {
 }
 
 /// Between steps it stays.
-fn blocked(instance: &mut Instance) {
+fn blocked(instance: &mut Instance, world: &World) {
     if let (Some(name), false) = (&instance.net.blocked, instance.mode == Mode::Step(false)) {
+        if instance.held_back != 0 {
+            world.note("BLOCKED tells");
+        }
         instance.words.insert(name.clone(), Value::Int(instance.held_back));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Fault;
 use super::expression::Value;
+use super::gates;
 use super::instance::{Instance, Rank};
 use super::model::{Statement, Target};
 use super::tokens::{Token, World};
@@ -37,6 +38,7 @@ pub(super) fn run(
 /// Two different writes of an output are a fault, and that of the higher rank stays; one that reads what it writes is
 /// in no conflict.
 fn write(instance: &mut Instance, name: &str, value: Value, reads_itself: bool, rank: Rank, world: &mut World) {
+    let rank = rank.min(gates::first_rank(instance.net));
     let is_output = instance.net.outputs.iter().any(|output| output.name == name);
     if is_output && !reads_itself {
         if let Some((_, whose)) = instance.written.get(name).copied() {

@@ -30,8 +30,8 @@ impl Maker<'_> {
                 true => Maker::new(&mut dice(SHARED), name).detail("sharedm", None, false, 2),
                 false => self.detail(&format!("{name}m{at}"), class.clone(), modes, 2),
             };
-            // What it writes goes to one word, by one part each.
-            let written = if at == 0 { "w2" } else { "n1" };
+            // Other parts and gates of the net may write the same word.
+            let written = self.dice.one(&["w2", "n1", "w0"]);
             let outputs = [("y1", self.dice.once_in(2)), (written, !self.dice.once_in(3))];
             let outputs = outputs.into_iter().map(|(name, is)| is.then(|| name.to_owned())).collect();
             let mut place = plain(&format!("M{at}"), Kind::Macro(self.net.parts.len()));
