@@ -423,6 +423,40 @@ END
     assert_eq!(column(&trace, "outer.idle"), [0., 0., 0., 0., 0., 1., 1., 1.]);
 }
 
+/// No token enters a macro while something is marked in a macro inside it.
+#[test]
+fn what_stays_in_the_innermost_macro_keeps_tokens_out() {
+    let outer = "int n = outer ( int go : )
+STATE idle MARKED
+MACRO M = middle ( go : )
+GATE in : idle -> M
+GATE out : M -> idle
+DO n = n + 1
+END
+";
+    let middle = "= middle ( int go : )
+ENTRY come
+MACRO I = inner ( go : )
+EXIT gone
+GATE a : come -> I
+GATE b : I -> gone
+END
+";
+    let inner = "= inner ( int go : )
+ENTRY come
+STATE rest
+EXIT gone
+GATE a : come -> gone, rest
+GATE b : rest -> IF go
+END
+";
+    let files = [("outer.net", outer), ("middle.net", middle), ("inner.net", inner)];
+    let trace = traced(&files, "k,go\n0,0\n9,1\n10,0\n", &["--steps", "14"]);
+    assert_eq!(column(&trace, "n"), [0., 0., 0., 0., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1.]);
+    let entered = [1., 1., 1., 1., 0., 0., 0., 0., 0., 0., 1., 1., 1., 1.];
+    assert_eq!(column(&trace, "outer.M"), entered);
+}
+
 /// A macro that is aborted while one inside it is, too, is empty after that.
 #[test]
 fn macros_are_aborted_together() {

@@ -165,17 +165,26 @@ static int32_t net_weight_in(const pcl2_net_word *arcs, int32_t n, int32_t b)
     return 0;
 }
 
-/* Whether a macro's net is empty, so that a token may enter; `leaves`: the one in the exit is about to go. */
-static int32_t net_vacant(const struct pcl2_net *net, int32_t part, int32_t leaves)
+/* Whether a net and the macros inside it are empty but for a box, -1: altogether. */
+static int32_t net_empty_but(const struct pcl2_net *net, int32_t but)
 {
-    const struct pcl2_net *inner = net_part_of(net, part);
-    const int32_t exit = net_part_record(net, part)[1];
-    for (int32_t b = 0; b < inner->table[PCL2_NET_N_BOXES]; b++) {
-        if ((inner->box[b] != 0 && !(leaves && b == exit)) || inner->filled[b] != 0) {
+    for (int32_t b = 0; b < net->table[PCL2_NET_N_BOXES]; b++) {
+        if ((net->box[b] != 0 && b != but) || net->filled[b] != 0) {
+            return 0;
+        }
+    }
+    for (int32_t i = 0; i < net->table[net->table[PCL2_NET_PARTS]]; i++) {
+        if (net_part_record(net, i)[3] != 0 && !net_empty_but(net_part_of(net, i), -1)) {
             return 0;
         }
     }
     return 1;
+}
+
+/* Whether a macro's net is empty, so that a token may enter; `leaves`: the one in the exit is about to go. */
+static int32_t net_vacant(const struct pcl2_net *net, int32_t part, int32_t leaves)
+{
+    return net_empty_but(net_part_of(net, part), leaves ? net_part_record(net, part)[1] : -1);
 }
 
 /* Whether a box can take so many tokens more. */

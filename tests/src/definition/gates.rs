@@ -222,14 +222,20 @@ fn route(
 }
 
 impl Instance<'_> {
+    /// Whether it began the phase without tokens, but for a box, and its macros, too.
+    fn is_empty_but(&self, but: Option<usize>) -> bool {
+        let own = (0..self.start.len()).all(|at| Some(at) == but || self.start[at].is_empty());
+        let macros = (0..self.start.len()).filter_map(|at| self.net.part_of(at));
+        own && macros.into_iter().all(|part| self.parts[part].is_empty_but(None))
+    }
+
     /// Whether so much room was free at the start and was not filled since; a box that gives `back` keeps its own.
     pub(super) fn has_room(&self, place: usize, gain: usize, back: usize) -> bool {
         if let Some(part) = self.net.part_of(place) {
             // No token enters while anything inside is marked, but that which leaves at the exit.
             let inside = &self.parts[part];
             let leaves = if back > 0 { inside.net.exit() } else { None };
-            let empty = (0..inside.start.len()).all(|at| Some(at) == leaves || inside.start[at].is_empty());
-            if !empty {
+            if !inside.is_empty_but(leaves) {
                 return false;
             }
         }

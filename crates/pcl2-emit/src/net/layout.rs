@@ -237,6 +237,7 @@ fn tell_parts(program: &Program, units: &mut [UnitLayout<'_>]) {
         };
         let emptied = units[outer].net.as_ref().is_some_and(|layout| layout.moves.emptied);
         let moded = units[outer].net.as_ref().is_some_and(|layout| layout.moded);
+        let asked = units[outer].net.as_ref().is_some_and(|layout| layout.moves.asked || layout.moves.looped);
         for (i, part) in net.parts.iter().enumerate() {
             let inner = part_unit(unit, net, PartId(i as u32)).and_then(|inner| units[inner.0 as usize].net.as_mut());
             let Some(inner) = inner else {
@@ -246,6 +247,7 @@ fn tell_parts(program: &Program, units: &mut [UnitLayout<'_>]) {
             if let Some(place) = part.place {
                 inner.moves.add(net, place);
                 inner.moves.emptied |= emptied || part.abort.is_some();
+                inner.moves.asked |= asked;
             }
         }
     }

@@ -143,6 +143,11 @@ pub(super) fn macro_functions(out: &mut String, net: &NetBody<'_, '_, '_>) {
     let (tag, n) = (net.tag(), net.net.boxes.len());
     let (entry, exit) = (net.place(entry), net.place(exit));
     let moves = net.layout.moves;
+    let macros = net.parts().filter(|(part, ..)| is_macro(net, *part));
+    let vacant = |(part, _, layout): (usize, _, &crate::layout::UnitLayout<'_>)| {
+        format!(" && {}_vacant(&self->{})", layout.tag, member(net, part))
+    };
+    let inside: String = macros.map(vacant).collect();
     let room = if net.layout.keeps("used") { ", 1" } else { "" };
     let by = if net.layout.keeps("by") { ", 0" } else { "" };
     if moves.asked {
@@ -155,7 +160,7 @@ static inline int32_t {tag}_vacant(const struct {tag} *self)
     for (int32_t place = 0; place < {n}; place++) {{
         tokens |= self->box[place] | self->net.filled[place];
     }}
-    return tokens == 0;
+    return tokens == 0{inside};
 }}
 
 "
@@ -171,7 +176,7 @@ static inline int32_t {tag}_vacant_but_exit(const struct {tag} *self)
     for (int32_t place = 0; place < {n}; place++) {{
         tokens |= (place == {exit} ? 0 : self->box[place]) | self->net.filled[place];
     }}
-    return tokens == 0;
+    return tokens == 0{inside};
 }}
 
 "

@@ -140,8 +140,19 @@ impl Flattener<'_> {
         transition.puts.extend(inner.net.entry.map(|entry| Arc { place: inner.place(entry), weight: 1 }));
         // What the gate itself takes stands in the exit.
         let exit = inner.net.exit.map(|exit| inner.place(exit)).filter(|_| is_before);
-        let others = inner.place_ids().filter(|place| Some(*place) != exit);
+        let detail = self.inside(scope, arc.place).map_or(Vec::new(), |inner| self.detail(inner));
+        let others = detail.into_iter().filter(|place| Some(*place) != exit);
         others.for_each(|place| inhibit(transition, Arc { place, weight: 1 }));
+    }
+
+    /// The places of a macro's net and of the macros inside it.
+    fn detail(&self, scope: usize) -> Vec<PlaceId> {
+        let net = self.scopes[scope].net;
+        let mut places: Vec<PlaceId> = self.scopes[scope].place_ids().collect();
+        for id in (0..net.boxes.len() as u32).map(BoxId) {
+            places.extend(self.inside(scope, id).into_iter().flat_map(|inner| self.detail(inner)));
+        }
+        places
     }
 
     fn room(&self, scope: usize, gate: &Gate, rule: &Rule) -> Room {

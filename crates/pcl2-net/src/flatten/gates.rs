@@ -125,14 +125,25 @@ impl Flattener<'_> {
         std::iter::once(self.tested(scope, tested)).chain(exit).collect()
     }
 
+    /// The nets of a macro and of the macros inside it in which tokens may stay when the macro is left.
+    fn unbalanced(&self, scope: usize, place: BoxId) -> Vec<usize> {
+        let Some(inner) = self.inside(scope, place) else {
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        found.extend((!self.is_balanced(inner, self.scopes[scope].place(place))).then_some(inner));
+        for id in (0..self.scopes[inner].net.boxes.len() as u32).map(BoxId) {
+            found.extend(self.unbalanced(inner, id));
+        }
+        found
+    }
+
     /// The boxes that must be empty so that a token may enter a macro, where its own box does not say so.
     fn vacant(&self, scope: usize, gate: &Gate) -> Result<Vec<String>, String> {
         let mut boxes = Vec::new();
         for (index, arc) in gate.after.iter().enumerate() {
-            let Some(inner) = self.inside(scope, arc.place) else {
-                continue;
-            };
-            if self.is_balanced(inner, self.scopes[scope].place(arc.place)) {
+            let unbalanced = self.unbalanced(scope, arc.place);
+            if unbalanced.is_empty() {
                 continue;
             }
             let fills = |rule: &Rule| rule.moves.iter().any(|way| way.to.contains(&(index as u32)));
@@ -146,8 +157,10 @@ impl Flattener<'_> {
                     self.scopes[scope].net.place(arc.place).name
                 ));
             }
-            let count = self.scopes[inner].net.boxes.len() as u32;
-            boxes.extend((0..count).map(|id| self.names.place(inner, BoxId(id)).to_owned()));
+            for inner in unbalanced {
+                let count = self.scopes[inner].net.boxes.len() as u32;
+                boxes.extend((0..count).map(|id| self.names.place(inner, BoxId(id)).to_owned()));
+            }
         }
         Ok(boxes)
     }
