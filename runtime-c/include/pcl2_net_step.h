@@ -71,10 +71,10 @@ static inline int32_t pcl2_net_in(const uint32_t *sets, int32_t member)
     return (int32_t)(sets[member >> 5] >> (member & 31) & 1);
 }
 
-/* The value by which tokens are ordered; one that is no number goes last. */
+/* The value by which tokens are ordered, the least first; a bad one goes last. */
 static inline pcl2_real pcl2_net_key(pcl2_real value)
 {
-    return value == value ? value : PCL2_REAL_MAX;
+    return pcl2_is_bad(value) ? PCL2_REAL_MAX : value;
 }
 
 /* Closes the gap that a token leaves among n. */

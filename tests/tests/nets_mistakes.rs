@@ -1,6 +1,7 @@
 //! Nets with mistakes: each is told, once, at its place.
 
 use pcl2_tests::nets::checked;
+use pcl2_tests::{pcl2, run};
 
 fn refused(text: &str, code: &str) {
     let (status, shown) = checked(text);
@@ -112,5 +113,26 @@ fn modes_with_mistakes_are_refused() {
     ];
     for (text, code) in cases {
         refused(&format!("{heads}{text}{rest}"), code);
+    }
+}
+
+/// A net, or a composite with one inside, is no statement: it would stand still between calls.
+#[test]
+fn statements_do_not_call_nets() {
+    let net = "int y = c ( int x : )\nOPERATION a MARKED DO y = CODE ( x : )\nGATE g : a -> a\nEND\n";
+    let inner = "int y = inner ( int x : )\nSTATE a MARKED\nSTATE b DRIVES y\nGATE g : a -> b IF x\nEND\n";
+    let composite = "int y = comp ( int x : )\nBODY\n1 y = inner ( x : )\nEND\n";
+    let program = "CONTROL\n1 x = msi ( : 0 )\n2 I = inner ( x : )\n3 J = comp ( x : )\n4 C = c ( x : )\nEND\n";
+    for code in ["inner", "comp"] {
+        let folder = tempfile::tempdir().unwrap();
+        let net = net.replace("CODE", code);
+        let files = [("k.cfg", program), ("inner.net", inner), ("comp.fc", composite), ("c.net", &net)];
+        for (name, text) in files {
+            std::fs::write(folder.path().join(name), text).unwrap();
+        }
+        let output = run(pcl2().args(["check", "k.cfg", "--blocks", "."]).current_dir(folder.path()));
+        let shown = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{shown}");
+        assert!(shown.contains("P0408") && shown.contains("MACRO or MODULE"), "{shown}");
     }
 }

@@ -145,3 +145,27 @@ END
     assert_eq!(column(&trace, "outer.M.gone"), [0., 1., 1., 1., 1., 0., 1., 1.]);
     assert_eq!(column(&trace, "outer.M.side"), [0., 1., 1., 1., 0., 0., 1., 1.]);
 }
+
+/// Tokens are ordered by ints as they are, also where a float could not tell them apart; bad values go last.
+#[test]
+fn keys_are_compared_as_they_are() {
+    let net = "int out = order ( int in, int n, int go : )
+CLASS job ( int n = 0 )
+GENERATE make OF job SIZE 1 WHEN in DO make.n = n
+CAPACITY wait OF job SIZE 5 ORDER most n
+OPERATION show OF job DO out = show.n
+GATE g1 : make -> wait
+GATE g2 : wait -> show IF go
+GATE g3 : show ->
+END
+";
+    let stimulus = "k,in,n,go\n0,1,16777216,0\n1,0,0,0\n2,1,16777217,0\n3,0,0,0\n4,0,0,1\n";
+    let args = ["--steps", "8", "--real", "f32"];
+    let trace = traced(&[("order.net", net)], stimulus, &args);
+    assert_eq!(column(&trace, "out"), [0., 0., 0., 0., 0., 16777217., 16777217., 16777216.]);
+    let net = net.replace("int n, int go", "real n, int go").replace("int n = 0", "real n = 0.");
+    let net = net.replace("int out", "real out").replace("most n", "least n");
+    let stimulus = "k,in,n,go\n0,1,nan,0\n1,0,0,0\n2,1,-inf,0\n3,0,0,0\n4,1,5,0\n5,0,0,1\n";
+    let trace = traced(&[("order.net", &net)], stimulus, &["--steps", "7"]);
+    assert_eq!(column(&trace, "out")[6], 5.);
+}

@@ -152,22 +152,23 @@ static int32_t net_left(const struct pcl2_net *net, int32_t b)
     return net->box[b] - net->taken[b];
 }
 
-/* The value by which tokens are ordered; one that is no number goes last. */
-static pcl2_real net_key_of(const struct pcl2_net *net, const pcl2_net_word *box, int32_t place)
+/* Whether the value by which tokens are ordered lets one go before another. */
+static int32_t net_goes_before(const struct pcl2_net *net, const pcl2_net_word *box, int32_t a, int32_t b)
 {
     const pcl2_net_word *class = net_class_of(net, box);
+    const int32_t least = box[3] == NET_ORDER_LEAST;
     int32_t ints, reals, before[2] = {0, 0};
-    pcl2_real key;
     net_sizes_of(class, &ints, &reals);
     for (int32_t i = 1; i <= box[4]; i++) {
         before[class[i]] += 1;
     }
     if (class[box[4] + 1] == 0) {
-        key = (pcl2_real)net->ints[box[5] + place * ints + before[0]];
-    } else {
-        key = net->reals[box[6] + place * reals + before[1]];
+        const int32_t *keys = net->ints + box[5] + before[0];
+        return least ? keys[a * ints] < keys[b * ints] : keys[a * ints] > keys[b * ints];
     }
-    return pcl2_net_key(box[3] == NET_ORDER_LEAST ? key : -key);
+    const pcl2_real *keys = net->reals + box[6] + before[1];
+    const pcl2_real sign = least ? PCL2_R(1.0) : PCL2_R(-1.0);
+    return pcl2_net_key(sign * keys[a * reals]) < pcl2_net_key(sign * keys[b * reals]);
 }
 
 /* The token that goes after another (-1: the first); -1: there is none. */
@@ -183,10 +184,9 @@ static int32_t net_next_token(const struct pcl2_net *net, int32_t b, int32_t aft
         return after < 0 ? n - 1 : after - 1;
     }
     for (int32_t i = 0; i < n; i++) {
-        const pcl2_real key = net_key_of(net, box, i);
-        const pcl2_real last = after < 0 ? key : net_key_of(net, box, after);
-        const int32_t later = after < 0 || key > last || (key == last && i > after);
-        if (later && (best < 0 || key < net_key_of(net, box, best))) {
+        const int32_t behind = after < 0 || net_goes_before(net, box, after, i);
+        const int32_t later = behind || (!net_goes_before(net, box, i, after) && i > after);
+        if (later && (best < 0 || net_goes_before(net, box, i, best))) {
             best = i;
         }
     }

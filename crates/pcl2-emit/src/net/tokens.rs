@@ -5,6 +5,7 @@ use super::{NetBody, fast, statements};
 use crate::statics::Statics;
 use pcl2_lang::net::{BoxId, Kind, Order, StatementId};
 use pcl2_lang::program::SignalId;
+use pcl2_lang::types::Scalar;
 use std::fmt::Write;
 
 /// The token in hand of a box while a statement is run.
@@ -336,12 +337,17 @@ pub(super) fn next_functions(out: &mut String, net: &NetBody<'_, '_, '_>, text: 
             Order::Fifo | Order::Lifo => continue,
         };
         let id = BoxId(i as u32);
+        let scalar = net.net.attributes(place)[attribute as usize].scalar;
         let key = |at: &str| {
-            format!(
-                "pcl2_net_key({sign}(pcl2_real){}[{at}].{})",
-                net.tokens(id),
-                net.attributes(id)[attribute as usize]
-            )
+            let value = format!("{}[{at}].{}", net.tokens(id), net.attributes(id)[attribute as usize]);
+            match scalar {
+                Scalar::Int => format!("{sign}(int64_t){value}"),
+                Scalar::Real => format!("pcl2_net_key({sign}{value})"),
+            }
+        };
+        let ty = match scalar {
+            Scalar::Int => "int64_t",
+            Scalar::Real => "pcl2_real",
         };
         let _ = write!(
             out,
@@ -349,11 +355,11 @@ pub(super) fn next_functions(out: &mut String, net: &NetBody<'_, '_, '_>, text: 
 static int32_t {next}(const struct {tag} *self, int32_t after)
 {{
     const int32_t n = {left};
-    const pcl2_real last = after < 0 ? 0 : {last};
-    pcl2_real least = 0;
+    const {ty} last = after < 0 ? 0 : {last};
+    {ty} least = 0;
     int32_t next = -1;
     for (int32_t i = 0; i < n; i++) {{
-        const pcl2_real key = {key};
+        const {ty} key = {key};
         const int32_t later = after < 0 || key > last || (key == last && i > after);
         if (later && (next < 0 || key < least)) {{
             next = i;

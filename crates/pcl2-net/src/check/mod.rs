@@ -107,6 +107,9 @@ pub(crate) enum Thing {
     Spoiled,
 }
 
+/// How deep composites are looked into; deeper ones are refused elsewhere.
+const MOST_DEPTH: u32 = 64;
+
 impl<'a> Builder<'a> {
     fn new(
         mut decl: Decl,
@@ -209,7 +212,27 @@ impl<'a> Builder<'a> {
                 None => self.unknown(name, "an output or a local"),
             }
         }
+        self.no_net(&statement);
         self.statement(statement)
+    }
+
+    /// A net goes on from scan to scan: a statement, which is run now and then, cannot call one.
+    fn no_net(&mut self, statement: &Statement) {
+        if self.holds_net(statement.code, 0) {
+            let code = self.text(statement.code);
+            let message = format!("expected a function code without a net, found `{code}`");
+            let help = "a net inside stands in a line of its own: MACRO or MODULE";
+            self.complain(codes::NET_LINE, statement.code.span, message, help);
+        }
+    }
+
+    /// Whether a code is a net, or a composite with one inside.
+    fn holds_net(&self, code: Name, depth: u32) -> bool {
+        let Some(decl) = self.catalogue.find(&self.text(code)).filter(|_| depth < MOST_DEPTH) else {
+            return false;
+        };
+        let mut body = decl.body.iter().flatten();
+        decl.net.is_some() || body.any(|statement| self.holds_net(statement.code, depth + 1))
     }
 
     /// What a statement touches. One that reads what it writes counts on, and is in no conflict.

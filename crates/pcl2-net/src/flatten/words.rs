@@ -40,6 +40,9 @@ impl Flattener<'_> {
         let own = &self.scopes[scope];
         let word = &own.net.words[id.0 as usize];
         let local = id.0 as usize >= own.net.outputs;
+        if own.net.operation.is_some() || own.net.blocked.is_some() {
+            return Err(format!("`{}`: expected a net without MODE and BLOCKED, found one of them", self.path(scope)));
+        }
         let name = format!("{}{}", self.names.prefixes[scope], word.name);
         if scope == 0 {
             return Ok(Word { drives: vec![name.clone()], name, local, copies: Vec::new() });
