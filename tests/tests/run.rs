@@ -282,3 +282,18 @@ fn a_fault_in_a_composite_says_where() {
     assert_eq!(code, 0);
     assert!(err.contains("block 2 `y` (pair): in `u`: in `y`: ") && err.contains(", or in `v`: in `y`: "), "{err}");
 }
+
+/// What a run is made from is not written over.
+#[test]
+fn a_run_spares_what_it_reads() {
+    let net = "int y = keep ( int x : )\nSTATE a MARKED DRIVES y\nGATE g : a -> IF x\nEND\n";
+    let folder = folder(&[("keep.net", net), ("s.csv", "k,x\n0,0\n")]);
+    for file in ["--trace=keep.net", "--plot=keep.net", "--params=./keep.net", "--trace=s.csv"] {
+        let output = pcl2_run(folder.path(), &["keep.net", "--steps", "2", "--stimulus", "s.csv", file]);
+        let (status, _, told) = said(&output);
+        assert_eq!(status, 2, "{file}: {told}");
+        assert!(told.contains("expected another file"), "{told}");
+    }
+    assert_eq!(fs::read_to_string(folder.path().join("keep.net")).unwrap(), net);
+    assert_eq!(fs::read_to_string(folder.path().join("s.csv")).unwrap(), "k,x\n0,0\n");
+}

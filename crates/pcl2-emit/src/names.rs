@@ -49,8 +49,12 @@ const LIBRARY: &str = "\
 /// The C name of a program, given its configured name or its source file's stem.
 pub fn program_name(text: &str) -> String {
     let name = legal(text, "p").into_owned();
-    if is_library(&name) || name.starts_with("pcl2_") || name.starts_with("PCL2_") { name + "_" } else { name }
+    let ours = name.starts_with("pcl2_") || name.starts_with("PCL2_") || name.eq_ignore_ascii_case("pcl2");
+    if is_library(&name) || ours || HEADERS.contains(&name.as_str()) { name + "_" } else { name }
 }
+
+/// Headers that the generated C includes: a program's own would hide them.
+const HEADERS: [&str; 4] = ["math", "stddef", "stdint", "string"];
 
 /// Keeps a name that [`program_name`] made, and makes anything else legal.
 pub(crate) fn settled_program_name(text: &str) -> String {
@@ -199,8 +203,16 @@ mod tests {
 
     #[test]
     fn program_names() {
-        let pairs =
-            [("main", "main_"), ("demo", "demo"), ("y1", "y1_"), ("2tanks", "p2tanks"), ("a-b", "a_b"), ("x_", "x__")];
+        let pairs = [
+            ("main", "main_"),
+            ("math", "math_"),
+            ("PCL2", "PCL2_"),
+            ("demo", "demo"),
+            ("y1", "y1_"),
+            ("2tanks", "p2tanks"),
+            ("a-b", "a_b"),
+            ("x_", "x__"),
+        ];
         for (text, name) in pairs {
             assert_eq!(program_name(text), name);
             assert_eq!(settled_program_name(name), name);

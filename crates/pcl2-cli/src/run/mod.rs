@@ -113,7 +113,7 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
         Err(outcome) => return outcome,
     };
     let names = Names::new(verified.program());
-    let ended = Job::new(args, &names).and_then(|job| {
+    let ended = spare(args).and_then(|()| Job::new(args, &names)).and_then(|job| {
         let toolchain = toolchain(args)?;
         let wish = match (&args.target, args.realtime) {
             (Some(_), _) => Some(Engine::Cc),
@@ -131,6 +131,20 @@ pub(crate) fn run(args: &RunArgs) -> Outcome {
         Ok(outcome) => outcome,
         Err(failure) => failure.report(),
     }
+}
+
+/// Refuses to write over what the run is made from.
+fn spare(args: &RunArgs) -> Result<(), Failure> {
+    let read: Vec<PathBuf> =
+        [Some(&args.path), args.stimulus.as_ref()].into_iter().flatten().flat_map(|path| path.canonicalize()).collect();
+    let written = [&args.trace, &args.plot, &args.params].into_iter().flatten();
+    for path in written.filter(|path| !files::is_stdout(path)) {
+        if path.canonicalize().is_ok_and(|path| read.contains(&path)) {
+            let path = path.display();
+            return Err(Failure::usage(format!("`{path}`: expected another file than those that are read, found one")));
+        }
+    }
+    Ok(())
 }
 
 /// The C compiler, and the board that an emulator has for the target.
