@@ -136,3 +136,29 @@ fn statements_do_not_call_nets() {
         assert!(shown.contains("P0408") && shown.contains("MACRO or MODULE"), "{shown}");
     }
 }
+
+/// In float, a number that only a double holds is refused wherever it stands.
+#[test]
+fn numbers_fit_into_the_width() {
+    let head = "real r = wide ( int x : )\n";
+    let cases = [
+        "STATE a MARKED\nOPERATION b DO r = 1e300\nGATE g : a -> b\nEND\n",
+        "LOCAL real l = 1e300\nSTATE a MARKED\nOPERATION b DO r = l\nGATE g : a -> b\nEND\n",
+        "START r = 1e300\nOPERATION b MARKED DO r = 1.\nEND\n",
+        "CLASS c ( real n = 1e300 )\nSTATE a OF c MARKED\nOPERATION b OF c DO r = b.n\nGATE g : a -> b\nEND\n",
+        "CLASS c ( real n )\nSTATE a OF c MARKED ( n = 1e300 )\nOPERATION b OF c DO r = b.n\nGATE g : a -> b\nEND\n",
+        "OPERATION b MARKED DO r = 1.\nTIME t 1e300\nGATE g : b -> t\nEND\n",
+        "OPERATION b MARKED DO r = 1.\nSTATE c\nGATE g : b -> c IF r > 1e300\nEND\n",
+    ];
+    for case in cases {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("wide.net"), format!("{head}{case}")).unwrap();
+        let check = |width: &str| run(pcl2().args(["check", "wide.net", "--real", width]).current_dir(folder.path()));
+        let shown = String::from_utf8_lossy(&check("f64").stderr).into_owned();
+        assert_eq!(check("f64").status.code(), Some(0), "{case}: {shown}");
+        let output = check("f32");
+        let shown = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{case}: {shown}");
+        assert!(shown.contains("P0004") && shown.contains("a float can hold"), "{case}: {shown}");
+    }
+}

@@ -13,13 +13,14 @@ use pcl2_lang::net::BOX_OUTPUT;
 use pcl2_lang::program::{BlockId, Cell, CellId, Role, SignalId, Source, Tracked, Writer};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
-use pcl2_lang::types::{Real, Type, Value};
+use pcl2_lang::types::{Real, Type, Value, Width};
 
 /// Connects outputs and ports of a scope.
 pub(crate) fn connect<'a>(input: &Input<'a>, scope: &mut Scope<'a>, diagnostics: &mut Vec<Diagnostic>) {
     crate::alone::inputs(input, scope);
     own_ports(scope, input);
     own_words(scope, input);
+    own_values(scope, input, diagnostics);
     for i in writing_order(input, scope) {
         outputs(input, scope, i, diagnostics);
     }
@@ -116,6 +117,35 @@ fn own_words<'a>(scope: &mut Scope<'a>, input: &Input<'a>) {
             scope.elements.insert(symbol, (tokens, i as u32));
         }
     }
+}
+
+/// The values that a net begins with must fit into the width.
+fn own_values(scope: &Scope<'_>, input: &Input<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((decl, net)) = scope.owner.as_ref().and_then(|(decl, _)| Some((*decl, decl.net.as_deref()?))) else {
+        return;
+    };
+    if input.options.width == Width::F64 {
+        return;
+    }
+    let words = net.words.iter().map(|word| (&word.initial, word.span));
+    let tokens = net.boxes.iter().flat_map(|place| place.presets.iter().map(|preset| (preset, place.span)));
+    let attributes = net.classes.iter().flat_map(|class| &class.attributes);
+    let fresh = attributes.map(|attribute| (&attribute.initial, decl.span));
+    let stops = net.operation.iter().flat_map(|operation| &operation.stops);
+    let stopped = stops.filter_map(|(_, value)| Some((value.as_ref()?, decl.span)));
+    for (value, span) in words.chain(tokens).chain(fresh).chain(stopped) {
+        if let Value::Real(value) = value
+            && !value.narrow.is_finite()
+        {
+            diagnostics.push(too_large(*value, span));
+        }
+    }
+}
+
+/// A real number that a float cannot hold.
+fn too_large(value: Real, span: Span) -> Diagnostic {
+    let message = format!("expected a value that a float can hold, found {:?}", value.wide);
+    Diagnostic::new(codes::NUMBER_RANGE, span, message)
 }
 
 /// A composite's own ports are signals without a writer.
@@ -307,7 +337,7 @@ impl<'a> Wirer<'_, 'a> {
                 Operand::Element(element) => self.element(element.0, &element.1),
                 Operand::Member(member) => self.member(member.0, member.1),
                 Operand::Number(Number::Int(value)) => Some(Source::Constant(Value::Int(*value))),
-                Operand::Number(Number::Real(value)) => Some(Source::Constant(Value::Real(*value))),
+                Operand::Number(Number::Real(value)) => self.real(*value, place.span),
                 Operand::Empty | Operand::Text(_) => None,
             };
             match source {
@@ -316,6 +346,15 @@ impl<'a> Wirer<'_, 'a> {
             }
         }
         self.scope.drafts[self.block].sources = sources;
+    }
+
+    /// A real number, which must fit into the width.
+    fn real(&mut self, value: Real, span: Span) -> Option<Source> {
+        if self.input.options.width == Width::F32 && !value.narrow.is_finite() {
+            self.diagnostics.push(too_large(value, span));
+            return None;
+        }
+        Some(Source::Constant(Value::Real(value)))
     }
 
     /// A variable in an expression; in a composite's body also one of its constants.
