@@ -373,6 +373,24 @@ END
     assert_eq!(column(&trace, "y"), [11., 10., 11., 10.]);
 }
 
+/// A net that only a composite calls is found beside the program, too.
+#[test]
+fn a_composite_calls_nets() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [
+        ("k.cfg", "CONTROL\n1 x = msi ( : 1 )\n2 y = outer ( x : )\nEND\n"),
+        ("outer.fc", "int y = outer ( int x : )\nBODY\n1 y = comp ( x : )\nEND\n"),
+        ("comp.fc", "int y = comp ( int x : )\nBODY\n1 y = inner ( x : )\nEND\n"),
+        ("inner.net", "int y = inner ( int x : )\nSTATE a MARKED\nSTATE b DRIVES y\nGATE g : a -> b IF x\nEND\n"),
+    ];
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let blocks = folder.path().to_str().unwrap();
+    let trace = trace(&folder.path().join("k.cfg"), &["--steps", "2", "--blocks", blocks]);
+    assert_eq!(column(&trace, "y"), [1., 1.]);
+}
+
 /// A condition over a bad operand is not true, its negation neither.
 #[test]
 fn a_condition_over_a_bad_operand_is_not_true() {

@@ -1,7 +1,7 @@
 //! Nets beside a program: a code that nobody declared may be a net, in a file of its name.
 
 use crate::project::{Loader, MAX_SOURCE, read_regular};
-use pcl2_lang::ast::{Line, Name};
+use pcl2_lang::ast::{Line, Name, Statement};
 use pcl2_lang::catalogue::Catalogue;
 use pcl2_lang::codes;
 use pcl2_lang::declare::net::{self, NetFile};
@@ -32,14 +32,23 @@ pub(crate) fn tree(loader: &mut Loader, file: FileId, stem: &str, catalogue: &mu
     Some(pcl2_cfg::net_tree(net, &mut loader.symbols))
 }
 
-/// Reads the nets that the blocks of a program call.
+/// Reads the nets that the blocks of a program call, and those of composites among them.
 pub(crate) fn wanted(loader: &mut Loader, tree: &Tree, catalogue: &mut Catalogue) {
-    let mut seen = FxHashSet::default();
-    for line in &tree.lines {
-        if let Line::Block(statement) = line {
-            if statement.formula.is_none() && seen.insert(statement.code.symbol) {
-                find(loader, statement.code, catalogue, &mut Vec::new());
-            }
+    let called = |statement: &Statement| statement.formula.is_none().then_some(statement.code);
+    let lines = tree.lines.iter().filter_map(|line| {
+        let Line::Block(statement) = line else {
+            return None;
+        };
+        called(statement)
+    });
+    let (mut codes, mut seen): (Vec<Name>, _) = (lines.collect(), FxHashSet::default());
+    let mut next = 0;
+    while let Some(code) = codes.get(next).copied() {
+        next += 1;
+        if seen.insert(code.symbol) {
+            let decl = catalogue.find(loader.symbols.text(code.symbol)).filter(|decl| decl.user);
+            codes.extend(decl.iter().flat_map(|decl| &decl.body).flatten().filter_map(called));
+            find(loader, code, catalogue, &mut Vec::new());
         }
     }
 }
