@@ -137,6 +137,23 @@ fn statements_do_not_call_nets() {
     }
 }
 
+/// A composite that calls others twice, and these others, is looked into once.
+#[test]
+fn composites_in_statements_take_no_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    for i in 0..40 {
+        let inner = if i == 39 { "not".to_owned() } else { format!("c{}", i + 1) };
+        let body = format!("1 a = {inner} ( x : )\n2 b = {inner} ( x : )\n3 y = a + b\n");
+        write(&format!("c{i}.fc"), &format!("int y = c{i} ( int x : )\nBODY\n{body}END\n"));
+    }
+    write("deep.net", "int y = deep ( int x : )\nOPERATION a MARKED DO y = c20 ( x : )\nGATE g : a -> a\nEND\n");
+    let begun = std::time::Instant::now();
+    let output = run(pcl2().args(["check", "deep.net", "--blocks", "."]).current_dir(folder.path()));
+    assert!(output.status.code().is_some_and(|code| code < 2), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(begun.elapsed().as_secs() < 10);
+}
+
 /// In float, a number that only a double holds is refused wherever it stands.
 #[test]
 fn numbers_fit_into_the_width() {

@@ -107,9 +107,6 @@ pub(crate) enum Thing {
     Spoiled,
 }
 
-/// How deep composites are looked into; deeper ones are refused elsewhere.
-const MOST_DEPTH: u32 = 64;
-
 impl<'a> Builder<'a> {
     fn new(
         mut decl: Decl,
@@ -218,7 +215,7 @@ impl<'a> Builder<'a> {
 
     /// A net goes on from scan to scan: a statement, which is run now and then, cannot call one.
     fn no_net(&mut self, statement: &Statement) {
-        if self.holds_net(statement.code, 0) {
+        if self.holds_net(statement.code) {
             let code = self.text(statement.code);
             let message = format!("expected a function code without a net, found `{code}`");
             let help = "a net inside stands in a line of its own: MACRO or MODULE";
@@ -226,13 +223,25 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Whether a code is a net, or a composite with one inside.
-    fn holds_net(&self, code: Name, depth: u32) -> bool {
-        let Some(decl) = self.catalogue.find(&self.text(code)).filter(|_| depth < MOST_DEPTH) else {
-            return false;
-        };
-        let mut body = decl.body.iter().flatten();
-        decl.net.is_some() || body.any(|statement| self.holds_net(statement.code, depth + 1))
+    /// Whether a code is a net, or a composite with one inside. Each code is looked at once.
+    fn holds_net(&self, code: Name) -> bool {
+        let mut codes = vec![code.symbol];
+        let mut next = 0;
+        while let Some(code) = codes.get(next).copied() {
+            next += 1;
+            let Some(decl) = self.catalogue.find(self.symbols.text(code)) else {
+                continue;
+            };
+            if decl.net.is_some() {
+                return true;
+            }
+            for statement in decl.body.iter().flatten() {
+                if !codes.contains(&statement.code.symbol) {
+                    codes.push(statement.code.symbol);
+                }
+            }
+        }
+        false
     }
 
     /// What a statement touches. One that reads what it writes counts on, and is in no conflict.
