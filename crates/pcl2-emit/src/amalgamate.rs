@@ -1,6 +1,7 @@
 //! A program as one header and one C file.
 
 use crate::Emitted;
+use crate::unused::without_unused;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Puts the files of a program together: `NAME.h` and `NAME.c` with everything that they include of ours,
@@ -18,7 +19,7 @@ pub fn amalgamate(emitted: &Emitted) -> Vec<(String, String)> {
     for path in first.into_iter().chain(last) {
         weaver.weave(path);
     }
-    let mut out = vec![(header_name, header), (main, weaver.text)];
+    let mut out = vec![(header_name, header), (main, without_unused(&weaver.text))];
     for path in [format!("{name}_example.c"), format!("{name}.json")] {
         if let Some(text) = files.get(path.as_str()) {
             out.push((path, (*text).to_owned()));

@@ -252,6 +252,7 @@ impl<'a, 'c> Builder<'a, 'c> {
         let decl = program.decl(*decl);
         let mut facts = facts::of_body(program, unit, self.codes, &self.layout.units, &self.kernels);
         let mut namer = Namer::new(RESERVED_INSIDE);
+        namer.reserve(self.name);
         let ports = port_names(decl, sizes, &mut namer);
         let params = decl.params.iter().map(|param| namer.made(&param.name)).collect();
         let net = decl.net.as_deref();

@@ -34,6 +34,7 @@ mod statics;
 mod step;
 mod text;
 mod tune;
+mod unused;
 
 pub use amalgamate::amalgamate;
 pub use names::program_name;

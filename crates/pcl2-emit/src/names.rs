@@ -46,11 +46,19 @@ const LIBRARY: &str = "\
     wait wcslen write y0 y1 yn \
 ";
 
+/// Variables and parameters of the functions that the compiler writes: a program of that name would be hidden by them.
+const VARIABLES: &str = "\
+    T after bad block boxes changed cold complete controller done end faults filled fired first full gate gates go \
+    hand happened held holds hot i instance iwork key last least left marked mode moved n net nets now output \
+    outputs parameters place ready room scan self set sets statement status stopped substep tokens twork value \
+    waiting wanted work writes \
+";
+
 /// The C name of a program, given its configured name or its source file's stem.
 pub fn program_name(text: &str) -> String {
     let name = legal(text, "p").into_owned();
     let ours = name.starts_with("pcl2_") || name.starts_with("PCL2_") || name.eq_ignore_ascii_case("pcl2");
-    if is_library(&name) || ours || HEADERS.contains(&name.as_str()) { name + "_" } else { name }
+    if is_taken_at_file_scope(&name) || ours || HEADERS.contains(&name.as_str()) { name + "_" } else { name }
 }
 
 /// Headers that the generated C includes: a program's own would hide them.
@@ -65,9 +73,10 @@ pub(crate) fn settled_program_name(text: &str) -> String {
 }
 
 /// Names that no program can have.
-static TAKEN_AT_FILE_SCOPE: LazyLock<FxHashSet<&str>> = LazyLock::new(|| LIBRARY.split_whitespace().collect());
+static TAKEN_AT_FILE_SCOPE: LazyLock<FxHashSet<&str>> =
+    LazyLock::new(|| LIBRARY.split_whitespace().chain(VARIABLES.split_whitespace()).collect());
 
-fn is_library(name: &str) -> bool {
+fn is_taken_at_file_scope(name: &str) -> bool {
     TAKEN_AT_FILE_SCOPE.contains(name)
 }
 
@@ -108,6 +117,11 @@ impl<'a> Namer<'a> {
     /// A name space in which these are taken.
     pub(crate) fn new(taken: &[&'static str]) -> Namer<'a> {
         Namer { used: taken.iter().map(|name| Cow::Borrowed(*name)).collect() }
+    }
+
+    /// Takes a name that is legal already.
+    pub(crate) fn reserve(&mut self, name: &str) {
+        self.used.insert(Cow::Owned(name.to_owned()));
     }
 
     /// A legal name for this text, numbered if it is taken.
@@ -208,6 +222,7 @@ mod tests {
             ("math", "math_"),
             ("PCL2", "PCL2_"),
             ("demo", "demo"),
+            ("self", "self_"),
             ("y1", "y1_"),
             ("2tanks", "p2tanks"),
             ("a-b", "a_b"),

@@ -80,7 +80,7 @@ fn includes(out: &mut String, cx: &Context<'_>, offset: &str, has_file: &dyn Fn(
         }
         out.push_str("#undef PCL2_KERNEL\n#define PCL2_KERNEL\n");
     }
-    let _ = writeln!(out, "\n#include \"{name}.h\"\n#include \"pcl2_tune.h\"\n");
+    let _ = writeln!(out, "\n#include \"pcl2_tune.h\"\n#include \"{name}.h\"\n");
     included
 }
 

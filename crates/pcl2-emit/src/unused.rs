@@ -1,0 +1,151 @@
+//! Inline functions that nobody calls, taken out of a C file: in one file with their callers, compilers warn of them.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::Range;
+
+/// The text without the `static inline` functions that nothing in it calls, their prototypes and their comments.
+pub(crate) fn without_unused(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().collect();
+    let (prototypes, functions): (Vec<Function>, Vec<Function>) =
+        functions(&lines).into_iter().partition(|function| lines[function.code.end - 1].ends_with(';'));
+    let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
+    words(text).for_each(|word| *uses.entry(word).or_default() += 1);
+    prototypes.iter().for_each(|prototype| forget(&mut uses, &lines[prototype.code.clone()]));
+    let mut unused = FxHashSet::default();
+    // A function calls only those above it.
+    for function in functions.iter().rev() {
+        if uses.get(function.name) == Some(&1) {
+            unused.insert(function.name);
+            forget(&mut uses, &lines[function.code.clone()]);
+        }
+    }
+    let mut keep = vec![true; lines.len()];
+    for function in prototypes.into_iter().chain(functions).filter(|function| unused.contains(function.name)) {
+        keep[function.lines].fill(false);
+    }
+    let kept = lines.iter().zip(keep).filter(|(_, keep)| *keep).map(|(line, _)| *line);
+    kept.flat_map(|line| [line, "\n"]).collect()
+}
+
+/// These lines use nothing any more.
+fn forget(uses: &mut FxHashMap<&str, usize>, lines: &[&str]) {
+    for word in words(&lines.join("\n")) {
+        if let Some(uses) = uses.get_mut(word) {
+            *uses -= 1;
+        }
+    }
+}
+
+/// A function, or its prototype.
+struct Function<'a> {
+    name: &'a str,
+    code: Range<usize>,
+    /// The code with its comment and the empty line below it.
+    lines: Range<usize>,
+}
+
+fn functions<'a>(lines: &[&'a str]) -> Vec<Function<'a>> {
+    let begins = |line: &str| ["static inline ", "PCL2_INLINE "].iter().any(|linkage| line.starts_with(linkage));
+    let starts = (0..lines.len()).filter(|i| begins(lines[*i]));
+    starts.filter_map(|start| function(lines, start)).collect()
+}
+
+fn function<'a>(lines: &[&'a str], start: usize) -> Option<Function<'a>> {
+    let name = words(lines[start].split('(').next()?).last()?;
+    let head = start + lines[start..].iter().position(|line| line.ends_with([';', '{', '}']))?;
+    let opens = lines[head].ends_with('{');
+    let end = 1 + if opens { head + lines[head..].iter().position(|line| *line == "}")? } else { head };
+    let below = if lines.get(end).is_some_and(|line| line.is_empty()) { end + 1 } else { end };
+    Some(Function { name, code: start..end, lines: comment(lines, start)..below })
+}
+
+/// The first line of the comment that ends just above a line; the line itself, where there is none.
+fn comment(lines: &[&str], line: usize) -> usize {
+    if !line.checked_sub(1).is_some_and(|above| lines[above].ends_with("*/")) {
+        return line;
+    }
+    (0..line).rev().find(|above| lines[*above].starts_with("/*")).unwrap_or(line)
+}
+
+/// The identifiers of C code, without those in comments and strings.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        loop {
+            let letter = rest.chars().next()?;
+            let length = match letter {
+                '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
+                '"' => quoted(rest),
+                _ if is_word(letter) => rest.find(|letter| !is_word(letter)).unwrap_or(rest.len()),
+                _ => letter.len_utf8(),
+            };
+            let (word, behind) = rest.split_at(length);
+            rest = behind;
+            if is_word(letter) {
+                return Some(word);
+            }
+        }
+    })
+}
+
+fn is_word(letter: char) -> bool {
+    letter.is_ascii_alphanumeric() || letter == '_'
+}
+
+/// The length of the string that a text begins with.
+fn quoted(text: &str) -> usize {
+    let mut escaped = false;
+    for (i, letter) in text.char_indices().skip(1) {
+        match letter {
+            '"' if !escaped => return i + 1,
+            _ => escaped = letter == '\\' && !escaped,
+        }
+    }
+    text.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unused_functions_go_with_what_only_they_call() {
+        let text = "\
+/* What nobody calls. */
+static inline int four(int x,
+                       int y);
+
+/* Doubles. It is called once. */
+static inline int twice(int x)
+{
+    return 2 * x;
+}
+
+/* Nobody calls four,
+   whatever a comment or \"four\" says. */
+static inline int four(int x,
+                       int y)
+{
+    /* Two lines
+       of one. */
+    return twice(x) + twice(y);
+}
+
+/* Called. */
+static inline int zero(void) { return 0; }
+static inline int one(void)
+{
+    return zero() + 1;
+}
+
+const char *text = \"a \\\" /* four\";
+int main(void)
+{
+    return one();
+}
+";
+        let (head, tail) = text.split_at(text.find("/* Called. */").unwrap_or_default());
+        assert!(head.contains("twice"));
+        assert_eq!(without_unused(text), tail);
+    }
+}
