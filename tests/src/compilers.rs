@@ -38,6 +38,8 @@ const BATCH: usize = 64;
 #[derive(Debug)]
 pub struct Built {
     folder: TempDir,
+    /// What the build wrote to standard output.
+    pub said: String,
     /// The cases in it.
     pub cases: Vec<String>,
 }
@@ -83,14 +85,14 @@ pub fn alone(case: &Case, width: Width) -> Built {
 
 fn finish(mut command: Command, cases: &[&Case], width: Width, folder: TempDir) -> Built {
     command.args(["--real", width.name(), "-o"]).arg(folder.path());
-    check(&mut command);
-    Built { folder, cases: cases.iter().map(|case| case.name.clone()).collect() }
+    let said = check(&mut command);
+    Built { folder, said, cases: cases.iter().map(|case| case.name.clone()).collect() }
 }
 
 impl Built {
     /// An empty folder for builds with options of their own.
     pub fn empty() -> Built {
-        Built { folder: folder(), cases: Vec::new() }
+        Built { folder: folder(), said: String::new(), cases: Vec::new() }
     }
 
     /// Where it is.
@@ -139,6 +141,32 @@ impl Built {
             left = later;
         }
         objects
+    }
+
+    /// The bytes of an instance that the build told of each program are those that a C compiler counts.
+    ///
+    /// # Panics
+    /// When one differs, or none was told.
+    pub fn counts_bytes(&self) {
+        let asserts = folder();
+        let mut programs = Vec::new();
+        let mut name = "";
+        for line in self.said.lines() {
+            if let Some(rest) = line.strip_prefix("  RAM:") {
+                let bytes = rest.split_whitespace().next().expect("a number");
+                let path = asserts.path().join(format!("{name}.c"));
+                let text = format!("#include \"{name}.h\"\ntypedef char told[sizeof({name}) == {bytes} ? 1 : -1];\n");
+                fs::write(&path, text).expect("a file");
+                programs.push(path);
+            } else if !line.starts_with(' ') {
+                name = line.split(':').next().unwrap_or_default();
+            }
+        }
+        assert!(!programs.is_empty(), "{}", self.said);
+        let mut command = Command::new("gcc");
+        command.arg("-fsyntax-only");
+        self.includes().iter().for_each(|include| drop(command.arg("-I").arg(include)));
+        check(command.args(&programs));
     }
 
     /// Links a program of one main file with the C of the folder, examples left out.

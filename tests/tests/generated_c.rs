@@ -17,6 +17,7 @@ fn strict(compiler: &str, width: Width) {
     for built in all(width) {
         let objects = built.compile(compiler, &STRICT);
         assert_eq!(compilers::files(objects.path(), "o").len(), built.sources().len());
+        built.counts_bytes();
     }
 }
 

@@ -1,9 +1,11 @@
 //! The C of nets: names that meet, functions that nobody calls, and what random nets do not have.
 
 use pcl2_tests::compilers::{Built, STRICT, check};
+use pcl2_tests::definition::text;
 use pcl2_tests::dice::Dice;
 use pcl2_tests::fences::fences;
 use pcl2_tests::nets::{self, column};
+use pcl2_tests::random_nets::{self, Wanted};
 use pcl2_tests::{pcl2, root, run};
 use std::fmt::Write;
 use std::fs;
@@ -25,12 +27,13 @@ fn compile(files: &[(&str, &str)]) {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), files);
     for form in ["fast", "table"] {
-        let built = Built::empty();
+        let mut built = Built::empty();
         let program = folder.path().join(files[0].0);
         let mut command = pcl2();
         command.arg("build").arg(program).arg("--blocks").arg(folder.path());
         command.args(["--period", "0.5", "--net-form", form, "-o"]).arg(built.path());
-        check(&mut command);
+        built.said = check(&mut command);
+        built.counts_bytes();
         for compiler in ["gcc", "clang"] {
             built.compile(compiler, &STRICT);
         }
@@ -128,6 +131,37 @@ fn the_page_shows_code_that_is_written() {
     let code = fs::read_to_string(built.path().join("fill.c")).unwrap();
     let lines = |text: &str| text.lines().map(|line| line.trim().to_owned()).collect::<Vec<_>>().join("\n");
     assert!(lines(&code).contains(&lines(&shown.text)), "{code}");
+}
+
+/// A program may be called like a variable of the functions that are made of it.
+#[test]
+fn programs_may_be_called_like_variables() {
+    for name in ["n", "self", "ready", "scan", "controller", "x"] {
+        compile(&[(&format!("{name}.net"), &followers(name, &["int"]).replace("x0", "x"))]);
+    }
+}
+
+/// The bytes of an instance are told exactly, in both forms: offsets in tables are as wide as they ask for.
+#[test]
+fn bytes_of_an_instance_are_counted_as_c_counts_them() {
+    let mut dice = random_nets::dice(3);
+    for i in 0..40 {
+        let wanted = Wanted { classes: i % 2 == 1, modes: true, calm: false };
+        let name = format!("r{i}");
+        let net = random_nets::net(&mut dice, &name, wanted);
+        let folder = tempfile::tempdir().unwrap();
+        for (file, text) in text::files(&net) {
+            fs::write(folder.path().join(file), text).unwrap();
+        }
+        for form in ["fast", "table"] {
+            let mut built = Built::empty();
+            let mut command = pcl2();
+            command.arg("build").arg(folder.path().join(format!("{name}.net")));
+            command.args(["--period", "0.5", "--net-form", form, "-o"]).arg(built.path());
+            built.said = check(&mut command);
+            built.counts_bytes();
+        }
+    }
 }
 
 #[test]

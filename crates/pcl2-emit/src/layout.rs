@@ -7,6 +7,7 @@ use crate::names::Namer;
 use crate::net::classes;
 use crate::net::layout::{self as nets, NetLayout};
 use crate::shape::{self, Cold, Extent, Form, Key, Shape};
+use crate::size::{self, Measured};
 use pcl2_lang::decl::{Direction, Step};
 use pcl2_lang::model;
 use pcl2_lang::net::Net;
@@ -449,37 +450,16 @@ impl<'a, 'c> Builder<'a, 'c> {
     }
 
     fn measure(&mut self) {
-        for index in (0..self.program.units.len()).rev() {
+        for index in (1..self.program.units.len()).rev() {
             if self.layout.units[index].used {
-                self.layout.units[index].extent = self.unit_extent(index);
+                self.layout.units[index].extent = size::body(self.measured(), index);
             }
         }
-        self.layout.extent = self.layout.units[0].extent;
+        self.layout.extent = size::main(self.measured());
     }
 
-    /// An upper bound for all targets whose types are aligned to their size at most.
-    fn unit_extent(&self, index: usize) -> Extent {
-        let (unit, layout, width) = (&self.program.units[index], &self.layout.units[index], self.program.width);
-        let mut extent = Extent { size: 0, align: 8 };
-        for member in &layout.members {
-            extent.add(crate::size::shape(&self.layout, self.codes, member.shape, width), 1);
-            if let (0, Some(cold)) = (index, self.layout.shapes[member.shape as usize].cold) {
-                shape::fields_extent(&mut extent, &self.layout.colds[cold].fields, width);
-            }
-        }
-        let types = layout.slots.iter().filter(|slot| !slot.inside).map(|slot| unit.signal(slot.signal).ty);
-        for ty in types.chain(unit.cells.iter().map(|cell| cell.ty)) {
-            extent.add(crate::size::of_type(ty, width), 1);
-        }
-        if index == 0 {
-            crate::size::rest(&mut extent, self.program, &self.layout);
-        } else {
-            crate::size::own_params(&mut extent, self.program, unit, &layout.facts);
-            if let (Some(net), Some(layout)) = (nets::net_of(self.program, unit), &layout.net) {
-                nets::extent(&mut extent, net, layout, self.layout.net_form, width);
-            }
-        }
-        extent
+    fn measured(&self) -> Measured<'_, 'a> {
+        Measured { program: self.program, layout: &self.layout, codes: self.codes }
     }
 }
 

@@ -221,8 +221,11 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// Appends something.
+    /// Appends something so many times.
     pub(crate) fn add(&mut self, other: Extent, times: u64) {
+        if times == 0 {
+            return;
+        }
         let align = other.align.max(1);
         let each = other.size.next_multiple_of(align);
         self.size = self.size.next_multiple_of(align) + each * times;

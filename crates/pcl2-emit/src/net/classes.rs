@@ -146,15 +146,19 @@ pub(crate) fn members(out: &mut String, net: &Net, names: &ClassNames) {
     let _ = writeln!(out, "    }} {TOKENS};");
 }
 
-/// Adds what tokens take: those in boxes, and one in each hand.
+/// Adds what tokens take: one in each hand, and those in boxes.
 pub(crate) fn extent(extent: &mut Extent, net: &Net, width: Width) {
+    let (mut hands, mut tokens) = (Extent::default(), Extent::default());
     for (_, place) in carriers(net) {
         let mut token = Extent::default();
         for attribute in net.attributes(place) {
             token.add(element_extent(c_scalar(attribute.scalar), width), 1);
         }
-        extent.add(token, u64::from(place.capacity.unwrap_or(1)) + 1);
+        hands.add(token, 1);
+        tokens.add(token, u64::from(place.capacity.unwrap_or(1)));
     }
+    extent.add(hands, 1);
+    extent.add(tokens, 1);
 }
 
 /// Writes the new tokens of classes that are used in `text`.

@@ -374,10 +374,12 @@ fn fast_fields(net: &Net, layout: &NetLayout) -> Vec<Field> {
     fields.0
 }
 
-/// Adds what the struct `net` takes.
+/// Adds what tokens and the struct `net` take.
 pub(crate) fn extent(extent: &mut Extent, net: &Net, layout: &NetLayout, form: NetForm, width: Width) {
-    fields_extent(extent, &layout.fields, width);
     if form == NetForm::Fast {
         classes::extent(extent, net, width);
     }
+    let mut beside = Extent::default();
+    fields_extent(&mut beside, &layout.fields, width);
+    extent.add(beside, 1);
 }
