@@ -47,6 +47,35 @@ fn nets_with_mistakes_are_refused() {
     }
 }
 
+/// Of a line that cannot be read nothing follows: no boxes that nobody declared, no lines that belong to nothing.
+#[test]
+fn a_line_that_cannot_be_read_is_all_that_is_told() {
+    let head = "int y = bad ( int x : )\nSTATE a MARKED\nSTATE b DRIVES y\n";
+    let cases = [
+        ("GATE g a -> b\nIF x\nTHEN a -> b\nDO y = 1\n", "a gate is `GATE name : before, .. -> after, .."),
+        ("GATE g : a => b\n", "a gate is `GATE name : before, .. -> after, .."),
+        ("GATE g : a -> b IF x = 1\n", "a comparison for equality is `==`"),
+        ("GATE g : a -> b\nIF\n", "a rule begins with `IF condition`"),
+        ("PROCES c UNTIL x\nDO x = 1\nAFTER x = 0\nGATE g : a -> c\n", "did you mean `PROCESS`?"),
+        ("12 b\n", "such as STATE, TIME, GATE, IF or DO"),
+        ("STATE\nGATE g : a -> c\n", "a box is `STATE name"),
+        ("SIGNAL c DO x := 1\n", "a box is `SIGNAL name"),
+        ("MACRO m f ( x : )\nABORT x -> a\nGATE g : a -> m\n", "a net inside is `MACRO name : outputs = net"),
+        ("\u{a7}\nDO y = 1\n", "outside comments only ASCII letters"),
+        ("LOCAL n\nSIGNAL c DO n = 1\n", "such a line is `LOCAL int n = 0, real x`"),
+    ];
+    for (lines, help) in cases {
+        let (status, shown) = checked(&format!("{head}{lines}END\n"));
+        assert_eq!(status, Some(1), "{lines}\n{shown}");
+        assert!(shown.contains(help) && shown.matches("error[").count() == 1, "{lines}\n{shown}");
+    }
+    for head in ["int y = bad ( int x )\n", "y = bad ( int x : )\n"] {
+        let (_, shown) = checked(&format!("{head}STATE a MARKED\nEND\n"));
+        assert!(shown.contains("a head is `type output, .. = name ("), "{shown}");
+        assert_eq!(shown.matches("error[").count(), 1, "{shown}");
+    }
+}
+
 /// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
 /// used; a help can be followed.
 #[test]

@@ -43,7 +43,7 @@ mod wording;
 use lines::is_comparison;
 pub(crate) use lines::{Lines, Words};
 pub(crate) use nets::parse_net_lines;
-use wording::{form_help, list};
+use wording::{HEAD, form_help, list};
 
 /// The deepest nesting of an expression.
 const MAX_DEPTH: u32 = 100;
@@ -486,8 +486,13 @@ impl<'a> Context<'a> {
         }
         let message = format!("expected {}, found {found}", list(&expected));
         let compares = tokens.iter().any(|lexeme| lexeme.start == span.start && is_comparison(lexeme.token));
-        let help = if compares && expected.iter().any(|token| token == "\"+\"" || token == "\"==\"") {
+        let allowed = |sign: &str| expected.iter().any(|token| token.trim_matches('"') == sign);
+        let help = if compares && (allowed("+") || allowed("==")) {
             "comparisons do not follow one another: put one into parentheses"
+        } else if found == "`=`" && allowed("==") {
+            "a comparison for equality is `==`"
+        } else if allowed("vec") {
+            HEAD
         } else {
             form_help(tokens)
         };

@@ -5,8 +5,9 @@ use crate::ast::net::NetLine;
 use crate::ast::{Name, Operand, Statement};
 use crate::codes;
 use crate::diagnostic::{self, Diagnostic};
-use crate::lexer::{Key, Lexeme, Token};
+use crate::lexer::{Key, Lexeme, NET_WORDS, Token};
 use crate::source::Span;
+use crate::suggest;
 
 /// The most lines of one net, those of FOR counted as often as they run.
 const MAX_LINES: usize = 1 << 17;
@@ -22,10 +23,7 @@ pub(crate) fn parse_net_lines(context: &mut Context<'_>, lines: &mut Lines<'_>) 
         let Some(broken) = lines.next_line(context.diagnostics) else {
             break;
         };
-        if broken {
-            continue;
-        }
-        rows.push(lines.tokens.clone());
+        rows.push(if broken { Vec::new() } else { lines.tokens.clone() });
         if is_first(&lines.tokens, Key::End) {
             ended = true;
             break;
@@ -48,9 +46,8 @@ fn block(context: &mut Context<'_>, rows: &[Vec<Lexeme>], parsed: &mut Vec<NetLi
     let mut next = 0;
     while let Some(row) = rows.get(next) {
         next += 1;
-        let line = parse(context, row);
-        match line {
-            Some(NetLine::For(name, from, to)) => {
+        match parse(context, row) {
+            NetLine::For(name, from, to) => {
                 let length = body_length(&rows[next..]);
                 repeat(context, &rows[next..next + length.unwrap_or(0)], (name, from, to), parsed);
                 match length {
@@ -63,11 +60,10 @@ fn block(context: &mut Context<'_>, rows: &[Vec<Lexeme>], parsed: &mut Vec<NetLi
                     ),
                 }
             }
-            Some(NetLine::Next(span)) => {
+            NetLine::Next(span) => {
                 context.complain(codes::SECTION, span, "expected a FOR before NEXT, found none", "delete this NEXT");
             }
-            Some(line) => parsed.push(line),
-            None => {}
+            line => parsed.push(line),
         }
         if parsed.len() > MAX_LINES {
             let place = row.first().map_or(0, |lexeme| lexeme.start);
@@ -130,13 +126,20 @@ fn repeat(
     }
 }
 
-fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> Option<NetLine> {
+fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> NetLine {
+    let Some(first) = row.first() else {
+        return NetLine::Broken;
+    };
+    if !matches!(first.token, Token::Key(_)) {
+        context.no_net_line(*first);
+        return NetLine::Broken;
+    }
     let tokens = row.iter().map(|lexeme| Ok((lexeme.start, lexeme.token, lexeme.end)));
     match cfg::NetLineParser::new().parse(context, tokens) {
-        Ok(line) => Some(line),
+        Ok(line) => line,
         Err(error) => {
             context.report(error, row);
-            None
+            NetLine::Broken
         }
     }
 }
@@ -144,6 +147,16 @@ fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> Option<NetLine> {
 impl Context<'_> {
     fn complain(&mut self, code: codes::Code, span: Span, message: impl Into<String>, help: &str) {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+    }
+
+    /// A line of a net begins with a word of its own.
+    fn no_net_line(&mut self, first: Lexeme) {
+        let found = self.describe(first.token, first.start, first.end);
+        let words = NET_WORDS.iter().filter(|(_, key)| key.begins_line()).map(|(word, _)| *word);
+        let close = suggest::help(found.trim_matches('`'), words);
+        let help = close.unwrap_or_else(|| "such as STATE, TIME, GATE, IF or DO: `pcl2 explain P0002`".to_owned());
+        let message = format!("expected a word that begins a line of a net, found {found}");
+        self.complain(codes::UNEXPECTED, self.span(first.start, first.end), message, &help);
     }
 
     /// There are too many lines, or turns of FOR: no more is read.

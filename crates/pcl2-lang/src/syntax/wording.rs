@@ -5,8 +5,7 @@ use crate::lexer::{Key, Lexeme, Token};
 
 pub(super) fn form_help(tokens: &[Lexeme]) -> &'static str {
     match tokens.first().map(|lexeme| lexeme.token) {
-        Some(Token::Key(Key::Control)) => "a section is `CONTROL [n [offset]]`",
-        Some(Token::Key(_)) => "a section word stands alone on its line",
+        Some(Token::Key(key)) => key_help(key),
         _ if calls_in_expression(tokens) => {
             "a call with `:` has a line of its own: give its output a name, and use that in the expression"
         }
@@ -16,6 +15,54 @@ pub(super) fn form_help(tokens: &[Lexeme]) -> &'static str {
         _ => "a block is `[number] [outputs] = code ( inputs : parameters )`",
     }
 }
+
+/// The form of a line that begins with this word.
+fn key_help(key: Key) -> &'static str {
+    match key {
+        Key::Control => "a section is `CONTROL [n [offset]]`",
+        Key::Initialize | Key::Plant | Key::End | Key::Body | Key::Else | Key::Next => {
+            "this word stands alone on its line"
+        }
+        Key::Int | Key::Real | Key::Ivec | Key::Vec | Key::Imat | Key::Mat | Key::Text | Key::Time => HEAD,
+        Key::Inout | Key::Cell | Key::Fixed | Key::From | Key::Above | Key::To | Key::Tracks => HEAD,
+        Key::Memory | Key::Work | Key::Tuned => "such a line is `MEMORY type NAME, ..`, also with WORK or TUNED",
+        Key::Start => "a line is `START name, ..` in a declaration, `START name = 1, ..` in a net",
+        Key::Retain | Key::Return | Key::Momentary => "such a line is `WORD name, ..`",
+        Key::Period | Key::Check | Key::Bad | Key::Inline | Key::Simulated | Key::Operator | Key::Image => {
+            "the language reference lists the clauses of declarations"
+        }
+        Key::Faults => "such a line is `FAULTS name \"text\", ..`",
+        Key::Example => "an example is `EXAMPLE name = value, .. [AFTER n] [PERIOD t]`",
+        Key::State | Key::Entry | Key::Exit => "a box is `STATE name [MARKED] [DRIVES output, ..]`",
+        Key::Capacity => "a box is `CAPACITY name [SIZE n] [OF class] [ORDER fifo] [MARKED n] [DRIVES output, ..]`",
+        Key::Timer => "a box is `TIME name seconds [MARKED] [DRIVES output, ..]`",
+        Key::Count => "a box is `COUNT name tokens [MARKED n] [DRIVES output, ..]`",
+        Key::Operation | Key::Signal => "a box is `SIGNAL name [MARKED] [DRIVES output, ..] DO output = value`",
+        Key::Process => "a box is `PROCESS name [UNTIL condition] [WITHIN seconds] [MARKED] [DRIVES output, ..]`",
+        Key::Generate => "a box is `GENERATE name [OF class] [SIZE n] WHEN condition`",
+        Key::Macro | Key::Module => "a net inside is `MACRO name : outputs = net ( inputs : parameters )`",
+        Key::Gate => {
+            "a gate is `GATE name : before, .. -> after, .. [READ ..] [INHIBIT ..] [PERMIT ..] [PRIORITY n] [IF condition]`"
+        }
+        Key::If => "a rule begins with `IF condition`; equality is `==`",
+        Key::Then => "tokens move by `THEN box -> box, ..`, `THEN NEW -> box` or `THEN box -> nothing`",
+        Key::Do | Key::After => "a statement is `DO output = value` or `DO outputs = code ( inputs : parameters )`",
+        Key::Abort => "a macro is emptied by `ABORT condition -> box`",
+        Key::Active => "such a line is `ACTIVE step, time OF box, ..`; the time may be left off",
+        Key::Blocked => "such a line is `BLOCKED output`",
+        Key::Class => "a class is `CLASS name ( int a = 0, real b )`",
+        Key::Local => "such a line is `LOCAL int n = 0, real x`",
+        Key::Mode => "such a line is `MODE mode, go, fire, put, take`; later ones may be left off",
+        Key::Stop => "such a line is `STOP output = 1, output = HOLD`",
+        Key::For => "lines are repeated by `FOR i = 1 TO n`, up to `NEXT`",
+        Key::And | Key::Or | Key::Not | Key::New | Key::Nothing | Key::Of | Key::Size | Key::Order => INSIDE,
+        Key::Marked | Key::Drives | Key::Read | Key::Inhibit | Key::Priority | Key::Permit => INSIDE,
+        Key::Until | Key::Within | Key::When | Key::Upto | Key::Hold => INSIDE,
+    }
+}
+
+pub(super) const HEAD: &str = "a head is `type output, .. = name ( type input, .. : type parameter = value, .. )`";
+const INSIDE: &str = "no line begins with this word";
 
 /// Whether what stands between `=` and `:` looks like an expression.
 fn calls_in_expression(tokens: &[Lexeme]) -> bool {

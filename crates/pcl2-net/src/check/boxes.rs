@@ -37,7 +37,7 @@ pub(super) fn boxes(builder: &mut Builder<'_>, outline: &mut Outline) {
 fn whole(builder: &mut Builder<'_>, without_parts: bool) {
     let span = builder.decl.span;
     if builder.net.boxes.is_empty() && without_parts {
-        builder.complain(
+        builder.miss(
             codes::NET_LINE,
             span,
             "expected boxes in the net, found none",
@@ -315,7 +315,7 @@ impl Filler<'_, '_> {
 
     fn action(&mut self, line: &BoxLine, enter: Vec<Statement>) -> Kind {
         if enter.is_empty() {
-            self.builder.complain(
+            self.builder.miss(
                 codes::NET_LINE,
                 line.name.span(),
                 "expected DO in or below the line, found none",

@@ -111,7 +111,7 @@ impl Reader<'_, '_> {
                 let name = self.builder.net.place(arc.place).name.clone();
                 let message = format!("expected a THEN with a token for `{name}`, found none");
                 let help = format!("let a token go there, or make one: `THEN NEW -> {name}`");
-                self.builder.complain(codes::ROUTE, gate.span, message, &help);
+                self.builder.miss(codes::ROUTE, gate.span, message, &help);
             }
         }
     }
@@ -393,7 +393,7 @@ impl Reader<'_, '_> {
             if !used {
                 let name = self.builder.net.place(arc.place).name.clone();
                 let message = format!("expected a THEN for each box before the gate, found none for `{name}`");
-                self.builder.complain(
+                self.builder.miss(
                     codes::ROUTE,
                     span,
                     message,

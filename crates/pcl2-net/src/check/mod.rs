@@ -62,7 +62,7 @@ pub fn compile(
 ) -> Option<Decl> {
     let before = mistakes(diagnostics);
     let NetFile { decl, head, lines, sound } = file;
-    let mut builder = Builder::new(decl, sources, symbols, catalogue, diagnostics);
+    let mut builder = Builder::new((decl, sound), sources, symbols, catalogue, diagnostics);
     let mut outline = outline::outline(&mut builder, lines);
     names::collect(&mut builder, &head, &outline);
     boxes::boxes(&mut builder, &mut outline);
@@ -82,6 +82,8 @@ fn mistakes(diagnostics: &[Diagnostic]) -> usize {
 pub(crate) struct Builder<'a> {
     pub(crate) decl: Decl,
     pub(crate) net: Net,
+    /// All lines were understood.
+    sound: bool,
     sources: &'a Sources,
     symbols: &'a mut Symbols,
     catalogue: &'a Catalogue,
@@ -109,7 +111,7 @@ pub(crate) enum Thing {
 
 impl<'a> Builder<'a> {
     fn new(
-        mut decl: Decl,
+        (mut decl, sound): (Decl, bool),
         sources: &'a Sources,
         symbols: &'a mut Symbols,
         catalogue: &'a Catalogue,
@@ -120,6 +122,7 @@ impl<'a> Builder<'a> {
         Builder {
             decl,
             net: Net::default(),
+            sound,
             sources,
             symbols,
             catalogue,
@@ -143,6 +146,13 @@ impl<'a> Builder<'a> {
 
     pub(crate) fn complain(&mut self, code: Code, span: Span, message: impl Into<String>, help: &str) {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+    }
+
+    /// As [`Builder::complain`], of what no line says: one that was not understood may say it.
+    pub(crate) fn miss(&mut self, code: Code, span: Span, message: impl Into<String>, help: &str) {
+        if self.sound {
+            self.complain(code, span, message, help);
+        }
     }
 
     fn text(&self, name: Name) -> String {
@@ -279,12 +289,11 @@ impl<'a> Builder<'a> {
     fn unknown(&mut self, name: Name, expected: &str) {
         let text = self.text(name);
         let message = format!("expected {expected}, found `{text}`");
-        let report = Diagnostic::new(codes::NET_NAME, name.span, message);
         let mut known: Vec<&str> = self.names.keys().map(|symbol| self.symbols.text(*symbol)).collect();
         known.sort_unstable();
         let help =
             suggest::help(&text, known.into_iter()).unwrap_or_else(|| format!("nothing in the net is called `{text}`"));
-        self.diagnostics.push(report.help(help));
+        self.miss(codes::NET_NAME, name.span, message, &help);
         self.names.insert(name.symbol, (Thing::Spoiled, name.span));
     }
 

@@ -132,7 +132,7 @@ fn name_output(builder: &mut Builder<'_>, word: WordId, names: Vec<String>) {
 fn stops(builder: &mut Builder<'_>, halts: &[Halt]) {
     if let (None, Some(halt)) = (&builder.net.operation, halts.first()) {
         let help = "a net without modes is never stopped: `MODE mode`";
-        builder.complain(codes::NET_LINE, halt.name.span, "expected a MODE in a net with STOP, found none", help);
+        builder.miss(codes::NET_LINE, halt.name.span, "expected a MODE in a net with STOP, found none", help);
         return;
     }
     let heads = builder.net.outputs;

@@ -73,6 +73,8 @@ pub(super) struct RuleLines {
 #[derive(Clone, Copy)]
 enum Current {
     None,
+    /// A line that was not understood: nothing is known of those below it.
+    Broken,
     Box,
     Abort,
     Part,
@@ -101,6 +103,7 @@ impl Outline {
             NetLine::Active(active) => self.actives.push(active),
             NetLine::Blocked(name) => self.blocked.push(name),
             NetLine::For(..) | NetLine::Next(_) | NetLine::End(_) => {}
+            NetLine::Broken => return Current::Broken,
             NetLine::Box(line) => return self.place(*line),
             NetLine::Part(is_macro, name, call) => {
                 self.order.push(Placed::Part(self.parts.len()));
@@ -108,6 +111,7 @@ impl Outline {
                 return Current::Part;
             }
             NetLine::Gate(line) => return self.gate(*line),
+            NetLine::Abort(..) if matches!(current, Current::Broken) => return current,
             NetLine::Abort(condition, to) => return self.abort(builder, *condition, to, current),
             NetLine::If(_) | NetLine::Else(_) | NetLine::Then(_) | NetLine::Do(_) | NetLine::After(_) => {
                 self.below(builder, line, current);
@@ -119,6 +123,9 @@ impl Outline {
 
     /// A line that belongs to the one above it.
     fn below(&mut self, builder: &mut Builder<'_>, line: NetLine, current: Current) {
+        if matches!(current, Current::Broken) {
+            return;
+        }
         match line {
             NetLine::If(condition) => self.rule(builder, Some(*condition), current),
             NetLine::Else(span) => self.other(builder, span, current),
@@ -222,6 +229,7 @@ impl Outline {
                     gate.last_rule().actions.push(statement);
                 }
             }
+            Current::Broken => {}
             Current::Part | Current::None => self.lost(builder, Some(span), "DO below a box, a gate, THEN or ABORT"),
         }
     }

@@ -45,7 +45,7 @@ fn drive(builder: &mut Builder<'_>, index: usize) {
         (true, None) if index < builder.net.outputs => {
             let message = format!("expected a box that drives `{name}` or a statement that writes it, found none");
             let help = format!("say `DRIVES {name}` at a box, or `DO {name} = ..`");
-            builder.complain(codes::DRIVE, span, message, &help);
+            builder.miss(codes::DRIVE, span, message, &help);
         }
         // A local that nobody writes is a constant.
         (true, None) => {}
