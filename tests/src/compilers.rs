@@ -165,7 +165,9 @@ impl Built {
         assert!(!programs.is_empty(), "{}", self.said);
         let mut command = Command::new("gcc");
         command.arg("-fsyntax-only");
-        self.includes().iter().for_each(|include| drop(command.arg("-I").arg(include)));
+        for include in self.includes() {
+            command.arg("-I").arg(include);
+        }
         check(command.args(&programs));
     }
 
