@@ -3,7 +3,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
-/// The text without the `static inline` functions that nothing in it calls, their prototypes and their comments.
+/// The text without the `static inline` functions of ours that nothing in it calls, their prototypes and their comments.
 pub(crate) fn without_unused(text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let (prototypes, functions): (Vec<Function>, Vec<Function>) =
@@ -51,7 +51,7 @@ fn functions<'a>(lines: &[&'a str]) -> Vec<Function<'a>> {
 }
 
 fn function<'a>(lines: &[&'a str], start: usize) -> Option<Function<'a>> {
-    let name = words(lines[start].split('(').next()?).last()?;
+    let name = words(lines[start].split('(').next()?).last().filter(|name| name.starts_with("pcl2_"))?;
     let head = start + lines[start..].iter().position(|line| line.ends_with([';', '{', '}']))?;
     let opens = lines[head].ends_with('{');
     let end = 1 + if opens { head + lines[head..].iter().position(|line| *line == "}")? } else { head };
@@ -75,7 +75,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
             let letter = rest.chars().next()?;
             let length = match letter {
                 '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
-                '"' => quoted(rest),
+                '"' | '\'' => quoted(rest, letter),
                 _ if is_word(letter) => rest.find(|letter| !is_word(letter)).unwrap_or(rest.len()),
                 _ => letter.len_utf8(),
             };
@@ -92,14 +92,14 @@ fn is_word(letter: char) -> bool {
     letter.is_ascii_alphanumeric() || letter == '_'
 }
 
-/// The length of the string that a text begins with.
-fn quoted(text: &str) -> usize {
+/// The length of the string or character that a text begins with.
+fn quoted(text: &str, mark: char) -> usize {
     let mut escaped = false;
     for (i, letter) in text.char_indices().skip(1) {
-        match letter {
-            '"' if !escaped => return i + 1,
-            _ => escaped = letter == '\\' && !escaped,
+        if letter == mark && !escaped {
+            return i + 1;
         }
+        escaped = letter == '\\' && !escaped;
     }
     text.len()
 }
@@ -112,36 +112,42 @@ mod tests {
     fn unused_functions_go_with_what_only_they_call() {
         let text = "\
 /* What nobody calls. */
-static inline int four(int x,
+static inline int pcl2_four(int x,
                        int y);
 
 /* Doubles. It is called once. */
-static inline int twice(int x)
+static inline int pcl2_twice(int x)
 {
     return 2 * x;
 }
 
-/* Nobody calls four,
-   whatever a comment or \"four\" says. */
-static inline int four(int x,
+/* Nobody calls pcl2_four,
+   whatever a comment or \"pcl2_four\" says. */
+static inline int pcl2_four(int x,
                        int y)
 {
     /* Two lines
        of one. */
-    return twice(x) + twice(y);
+    return pcl2_twice(x) + pcl2_twice(y);
 }
 
 /* Called. */
-static inline int zero(void) { return 0; }
-static inline int one(void)
+static inline int pcl2_zero(void) { return 0; }
+static inline int pcl2_one(void)
 {
-    return zero() + 1;
+    return pcl2_zero() + 1;
 }
 
+static inline int users(void)
+{
+    return 2;
+}
+
+const char mark = '\"';
 const char *text = \"a \\\" /* four\";
 int main(void)
 {
-    return one();
+    return pcl2_one();
 }
 ";
         let (head, tail) = text.split_at(text.find("/* Called. */").unwrap_or_default());

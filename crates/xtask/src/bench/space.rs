@@ -26,7 +26,7 @@ pub(crate) fn measure(tools: &Tools, table: &mut Table) -> Result<(), String> {
         let name = format!("Referendum-{n}");
         deadlock(tools, table, &name, &written(tools, &name, &literature::referendum(n))?)?;
     }
-    for n in [1, 6, 12, 24] {
+    for n in [1, 6, 12, 24, 48, 96] {
         let name = format!("AutoFlight-{n}a");
         deadlock(tools, table, &name, &written(tools, &name, &literature::auto_flight(n))?)?;
     }
