@@ -198,6 +198,17 @@ fn a_token_that_nobody_takes_is_lost_and_told() {
     assert!(faults("5"), "the next is lost");
 }
 
+/// The condition of a GENERATE box sees the box as it was before it makes a token in the scan.
+#[test]
+fn a_condition_sees_its_own_box_before_a_token_is_made() {
+    let net = "int n = own ( int x, int out : )\nGENERATE make SIZE 1 WHEN x <> make DO n = n + 1\n\
+               GATE g : make -> IF out\nEND\n";
+    let stimulus = "k,x,out\n0,1,0\n2,0,1\n3,0,0\n4,0,1\n5,0,0\n";
+    let trace = traced(&[("own.net", net)], stimulus, &["--steps", "6"]);
+    assert_eq!(column(&trace, "own.make"), [1., 1., 0., 1., 0., 1.]);
+    assert_eq!(column(&trace, "n"), [1., 1., 1., 2., 2., 3.]);
+}
+
 /// Two steps that count one word on entry both count, whatever their order.
 #[test]
 fn two_steps_that_count_one_word_both_count() {

@@ -126,16 +126,16 @@ fn go_on(instance: &mut Instance, place: usize, process: &Process, world: &mut W
     state.timer = instance.now;
 }
 
-/// An edge makes a token, or waits for room, or is lost.
+/// An edge makes a token, or waits for room, or is lost. One that waited goes first; the condition was tested before.
 fn make(instance: &mut Instance, place: usize, generate: &Generate, world: &mut World) {
+    let holds = instance.holds(&generate.when, &[], world);
+    let edge = holds && !instance.boxes[place].held;
+    instance.boxes[place].held = holds;
     let got_room = instance.boxes[place].waits && has_room(instance, place, generate);
     if got_room {
         instance.boxes[place].waits = false;
         add(instance, place, generate, world);
     }
-    let holds = instance.holds(&generate.when, &[], world);
-    let edge = holds && !instance.boxes[place].held;
-    instance.boxes[place].held = holds;
     if !edge {
         return;
     }

@@ -9,7 +9,7 @@ mod program;
 mod smaller;
 
 pub use program::{Stimulus, configuration, shared_stimulus};
-pub use smaller::smaller;
+pub use smaller::{smaller, written_out};
 
 use crate::definition::expression::{Expression, Value};
 use crate::definition::model::{Active, Class, Input, Kind, Net, Statement, Stop, Target, Word};

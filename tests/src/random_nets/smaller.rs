@@ -3,6 +3,15 @@
 use crate::definition::expression::Expression;
 use crate::definition::model::{Gate, Kind, Net, Statement};
 
+/// The net without repeated lines: of those written once nothing can be taken from one alone.
+pub fn written_out(net: &Net) -> Net {
+    changed(net, |net| {
+        net.boxes.iter_mut().for_each(|place| place.repeated = None);
+        net.gates.iter_mut().for_each(|gate| gate.repeated = None);
+        net.parts.iter_mut().for_each(|part| part.net = written_out(&part.net));
+    })
+}
+
 /// Each net with one thing less. Some are wrong: what a removed box was named in stays.
 pub fn smaller(net: &Net) -> Vec<Net> {
     let mut nets = Vec::new();
@@ -42,11 +51,9 @@ pub fn smaller(net: &Net) -> Vec<Net> {
         nets.push(changed(net, |net| net.boxes[at].drives.clear()));
         nets.push(changed(net, |net| net.boxes[at].with.clear()));
         nets.push(changed(net, |net| net.boxes[at].class = None));
-        nets.push(changed(net, |net| net.boxes[at].repeated = None));
     }
     nets.push(changed(net, |net| net.blocked = None));
     nets.push(changed(net, |net| net.mode.clear()));
-    nets.push(changed(net, |net| net.gates.iter_mut().for_each(|gate| gate.repeated = None)));
     nets
 }
 
