@@ -174,7 +174,8 @@ fn fire(instance: &mut Instance, gate: &Gate, rule: &Rule, hand: &Hand, rank: Ra
     if let Some(condition) = &rule.condition {
         instance.clear_commands(condition);
     }
-    run(instance, &rule.acts, rank, hand, world);
+    let fresh = fresh(net, rule, world);
+    run(instance, &rule.acts, rank, &with_fresh(gate, hand, &fresh), world);
     let in_hand = |name: &str| hand.iter().find(|(from, _)| from == name).map(|(_, token)| *token);
     if rule.routes.is_empty() {
         let source = gate.before.first();
@@ -190,8 +191,38 @@ fn fire(instance: &mut Instance, gate: &Gate, rule: &Rule, hand: &Hand, rank: Ra
         );
     }
     for routed in &rule.routes {
-        let source = routed.from.as_deref();
-        route(instance, gate, source, &routed.to, source.and_then(in_hand), rank, world);
+        match routed.from.as_deref() {
+            Some(source) => route(instance, gate, Some(source), &routed.to, in_hand(source), rank, world),
+            None => routed.to.iter().for_each(|name| put_fresh(instance, gate, name, &fresh, rank, world)),
+        }
+    }
+}
+
+/// The tokens that THEN NEW makes, by their boxes.
+fn fresh(net: &Net, rule: &Rule, world: &mut World) -> Hand {
+    let new = rule.routes.iter().filter(|route| route.from.is_none()).flat_map(|route| &route.to);
+    let class = |name: &String| net.boxes[net.place(name)].class.as_ref().and_then(|class| net.class(class));
+    new.map(|name| (name.clone(), world.new_token(class(name)))).collect()
+}
+
+/// Statements see new tokens by the names of their boxes, but for a box before the gate the token that was taken.
+fn with_fresh(gate: &Gate, hand: &Hand, fresh: &Hand) -> Hand {
+    let seen: Hand =
+        fresh.iter().filter(|(name, _)| !gate.before.iter().any(|(before, _)| before == name)).cloned().collect();
+    let is_new = |name: &String| seen.iter().any(|(new, _)| new == name);
+    let held: Hand = hand.iter().filter(|(name, _)| !is_new(name)).cloned().collect();
+    held.into_iter().chain(seen).collect()
+}
+
+fn put_fresh(instance: &mut Instance, gate: &Gate, name: &str, fresh: &Hand, rank: Rank, world: &mut World) {
+    let place = instance.net.place(name);
+    let token = fresh.iter().find(|(to, _)| to == name).map(|(_, token)| *token);
+    let more = gate.after.iter().find(|(to, _)| to == name).map_or(0, |(_, weight)| weight.saturating_sub(1));
+    token.into_iter().for_each(|token| instance.put(place, token, rank));
+    for _ in 0..more {
+        // Only plain tokens go several at once.
+        let token = world.new_token(None);
+        instance.put(place, token, rank);
     }
 }
 

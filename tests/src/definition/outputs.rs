@@ -12,13 +12,12 @@ const AFTER_ALL: Rank = (i64::MIN, 0);
 /// For the nets inside, then for the one around them.
 pub(super) fn follow(instance: &mut Instance, world: &mut World) {
     instance.parts.iter_mut().for_each(|part| follow(part, world));
+    from_parts(instance, world);
+    driven(instance);
     if instance.mode == Mode::Stopped {
-        from_parts(instance, world);
         stopped(instance, world);
         return;
     }
-    from_parts(instance, world);
-    driven(instance);
     active(instance);
     blocked(instance, world);
     let net = instance.net;
