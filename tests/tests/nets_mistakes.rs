@@ -76,6 +76,42 @@ fn a_line_that_cannot_be_read_is_all_that_is_told() {
     }
 }
 
+/// Independent mistakes are told together, and none only because of another one.
+#[test]
+fn mistakes_are_told_together_and_nothing_that_follows() {
+    let head = "int y = bad ( int x, cell int mode = 0 : )\nCLASS part ( int kind )\nSTATE a MARKED\n";
+    let cases: [(&str, &[&str]); 18] = [
+        ("STATE b MARKED 2 DRIVES y\nGATE g : a -> b IF xx\n", &["P0404", "found `xx`", "did you mean `x`?"]),
+        ("STATE b DRIVES y\nGATE g : a -> b IF c.k\nGATE h : b -> a IF z\n", &["found `c`", "found `z`"]),
+        ("STATE b OF part DRIVES y\nGATE g : b -> IF b.color == 1\n", &["found `color`", "the attributes are kind"]),
+        ("STATE b DRIVES y\nGATE g : b -> IF b.color\n", &["found `color`", "its tokens are plain"]),
+        ("PROCESS b UNTIL x DRIVES y\nGATE g : b -> IF b.cause\n", &["only a PROCESS with AFTER has a cause"]),
+        ("PROCESS b UNTIL x DRIVES y\nAFTER b.cause = 0\n", &["the cause of a process is read only"]),
+        ("STATE b OF part MARKED ( kind = 1, kind = 2 ) DRIVES y\n", &["expected each attribute once"]),
+        ("TIME b a DRIVES y\n", &["expected a time in seconds, found the box `a`"]),
+        ("TIME b -3. DRIVES y\n", &["expected a time from 0, found `-3.`"]),
+        ("STATE b DRIVES y\nGATE g : b -> READ 2*a\n", &["expected at most 1 token in `a`, found 2"]),
+        ("STATE b DRIVES yy\n", &["found `yy`"]),
+        ("CAPACITY b SIZE 0 MARKED DRIVES y\nGATE g : b ->\n", &["expected a size from 1 to 65535, found 0"]),
+        ("CAPACITY b SIZE 99999999999 DRIVES y\nGATE g : b ->\n", &["P0004"]),
+        ("CAPACITY b OF pert SIZE 2 ORDER least due DRIVES y\nSTATE c OF part\nGATE g : b -> c\n", &["found `pert`"]),
+        ("COUNT b 3 OF part DRIVES y\nSTATE c OF part\nGATE g : c -> b\n", &["tokens of a COUNT box are plain"]),
+        ("STATE b OF part DRIVES y\nGATE g : a -> b IF x\n", &["bad.net:5:15", "found a plain one before the gate"]),
+        ("LOCAL int s\nACTIVE s OF a, a\nSTATE b DRIVES y\n", &["expected each box once, found `a` again"]),
+        ("MODE mod\nSTATE b DRIVES y\n", &["found `mod`", "did you mean `mode`?"]),
+    ];
+    for (lines, told) in cases {
+        let (status, shown) = checked(&format!("{head}{lines}END\n"));
+        assert_eq!(status, Some(1), "{lines}\n{shown}");
+        told.iter().for_each(|told| assert!(shown.contains(told), "{told} for\n{lines}\n{shown}"));
+        let errors = 1 + usize::from(lines.contains("xx") || lines.contains("c.k"));
+        assert_eq!(shown.matches("error[").count(), errors, "{lines}\n{shown}");
+    }
+    let unread = "CLASS job\nCAPACITY b OF job SIZE 2 ORDER least due DRIVES y\nGATE g : b -> IF b.due > 1\n";
+    let (_, shown) = checked(&format!("{head}{unread}END\n"));
+    assert_eq!(shown.matches("error[").count(), 1, "{shown}");
+}
+
 /// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
 /// used; a help can be followed.
 #[test]

@@ -3,9 +3,9 @@
 use super::outline::{BoxLines, Outline, Placed};
 use super::{Builder, Thing};
 use pcl2_lang::ast::net::{BoxClause, BoxKind, BoxLine, Preset};
-use pcl2_lang::ast::{Name, Operand, Statement};
+use pcl2_lang::ast::{Name, Number, Operand, Statement};
 use pcl2_lang::codes;
-use pcl2_lang::net::{BoxId, CAUSE, ClassId, Generation, Kind, Level, MAX_COUNT, Order, Process, READY};
+use pcl2_lang::net::{BoxId, CAUSE, ClassId, Generation, Kind, Level, MAX_COUNT, Order, Process, READY, StatementId};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
 use pcl2_lang::types::{MAX_ELEMENTS, Value};
@@ -56,6 +56,18 @@ pub(super) fn counted(tokens: u32) -> String {
     if tokens == 1 { "1 token".to_owned() } else { format!("{tokens} tokens") }
 }
 
+/// Which boxes have a clause.
+fn owners(clause: &BoxClause) -> &'static str {
+    match clause {
+        BoxClause::Of(_) => "tokens of a COUNT box are plain",
+        BoxClause::Marked(..) => "a GENERATE box makes its tokens itself",
+        BoxClause::Size(..) | BoxClause::Order(..) => "CAPACITY and GENERATE boxes have it",
+        BoxClause::Until(_) | BoxClause::Within(_) => "PROCESS boxes have it",
+        BoxClause::When(_) => "GENERATE boxes have it",
+        BoxClause::Drives(_) | BoxClause::Do(_) => "all boxes have it",
+    }
+}
+
 struct Filler<'b, 'a> {
     builder: &'b mut Builder<'a>,
     id: BoxId,
@@ -94,12 +106,11 @@ impl Filler<'_, '_> {
             let (word, span) = self.clause_word(clause);
             if !self.takes(clause) {
                 let message = format!("expected a clause that a box of this kind has, found {word}");
-                self.builder.complain(
-                    codes::NET_LINE,
-                    span,
-                    message,
-                    "the language page lists the clauses of each kind",
-                );
+                self.builder.complain(codes::NET_LINE, span, message, owners(clause));
+                if matches!(clause, BoxClause::Of(_)) {
+                    self.builder.unclassed.insert(self.id);
+                }
+                continue;
             } else if seen.contains(&word) {
                 let message = format!("expected {word} once, found it again");
                 self.builder.complain(codes::NET_LINE, span, message, "delete one of them");
@@ -143,7 +154,8 @@ impl Filler<'_, '_> {
                 let help = suggest::help(&text, known);
                 let help = help.unwrap_or_else(|| format!("declare it: `CLASS {text} ( int kind = 0 )`"));
                 let message = format!("expected a class, found `{text}`");
-                self.builder.complain(codes::NET_NAME, name.span, message, &help);
+                self.builder.miss(codes::NET_NAME, name.span, message, &help);
+                self.builder.unclassed.insert(self.id);
             }
         }
     }
@@ -180,6 +192,9 @@ impl Filler<'_, '_> {
 
     /// The index of an attribute of the box's class.
     fn attribute(&mut self, name: Name) -> Option<u32> {
+        if self.builder.unclassed.contains(&self.id) {
+            return None;
+        }
         let text = self.builder.text(name);
         let place = self.builder.net.place(self.id);
         let attributes = self.builder.net.attributes(place);
@@ -203,11 +218,12 @@ impl Filler<'_, '_> {
         });
         let capacity = match (self.line.kind, size) {
             (BoxKind::Capacity | BoxKind::Generation, Some((size, span))) => {
-                if size == 0 || size as usize > MAX_COUNT {
+                let fits = size > 0 && size as usize <= MAX_COUNT;
+                if !fits {
                     let message = format!("expected a size from 1 to {MAX_COUNT}, found {size}");
-                    self.builder.complain(codes::OUT_OF_RANGE, span, message, "a box holds at least one token");
+                    self.builder.miss(codes::OUT_OF_RANGE, span, message, "say how many tokens the box can hold");
                 }
-                Some(size)
+                Some(size).filter(|_| fits)
             }
             (BoxKind::Capacity, None) if self.builder.net.place(self.id).class.is_none() => None,
             (BoxKind::Capacity | BoxKind::Generation, None) => {
@@ -225,7 +241,7 @@ impl Filler<'_, '_> {
         let quantity = self.line.quantity.as_ref()?;
         let span = quantity.span;
         match quantity.inputs().first()?.value {
-            Operand::Number(pcl2_lang::ast::Number::Int(value)) if value >= 1 && value as usize <= MAX_COUNT => {
+            Operand::Number(Number::Int(value)) if value >= 1 && value as usize <= MAX_COUNT => {
                 return Some(value.unsigned_abs());
             }
             _ => {
@@ -259,7 +275,11 @@ impl Filler<'_, '_> {
             let span = count.map_or(span, |(_, span)| span);
             self.builder.complain(codes::CAPACITY, span, message, "mark it with fewer, or make it larger");
         }
-        for preset in presets {
+        for (i, preset) in presets.iter().enumerate() {
+            if presets[..i].iter().any(|known| known.name.symbol == preset.name.symbol) {
+                let message = format!("expected each attribute once, found `{}` again", self.builder.text(preset.name));
+                self.builder.complain(codes::NET_LINE, preset.name.span, message, "delete one of them");
+            }
             self.preset(preset, &mut values);
         }
         let place = self.place();
@@ -303,7 +323,7 @@ impl Filler<'_, '_> {
             BoxKind::Capacity => Kind::Capacity,
             BoxKind::Count => Kind::Count,
             BoxKind::Time => match line.quantity.clone() {
-                Some(time) => Kind::Time(self.builder.statement(*time)),
+                Some(time) => Kind::Time(self.time(*time)),
                 None => Kind::State,
             },
             BoxKind::Operation | BoxKind::Signal => self.action(&line, enter),
@@ -339,11 +359,27 @@ impl Filler<'_, '_> {
         for clause in &line.clauses {
             match clause {
                 BoxClause::Until(condition) => process.until = Some(self.builder.statement((**condition).clone())),
-                BoxClause::Within(time) => process.within = Some(self.builder.statement((**time).clone())),
+                BoxClause::Within(time) => process.within = Some(self.time((**time).clone())),
                 _ => {}
             }
         }
         Kind::Process(Box::new(process))
+    }
+
+    fn time(&mut self, time: Statement) -> StatementId {
+        let below_zero = match time.inputs().first().map(|item| &item.value) {
+            Some(Operand::Number(Number::Int(value))) => *value < 0,
+            Some(Operand::Number(Number::Real(value))) => value.wide < 0.,
+            Some(Operand::Empty | Operand::Name(_) | Operand::Element(_) | Operand::Member(_) | Operand::Text(_)) => {
+                false
+            }
+            None => false,
+        };
+        if below_zero {
+            let message = format!("expected a time from 0, found `{}`", self.builder.written_text(time.span));
+            self.builder.complain(codes::OUT_OF_RANGE, time.span, message, "times are in seconds");
+        }
+        self.builder.statement(time)
     }
 
     fn generation(&mut self, line: &BoxLine, enter: Vec<Statement>) -> Kind {

@@ -94,7 +94,7 @@ impl Reader<'_, '_> {
             rules
         };
         for rule in rules {
-            let rule = self.rule(&gate, rule);
+            let rule = self.rule(&gate, rule, &line.after);
             gate.rules.push(rule);
         }
         if super::mistakes(self.builder.diagnostics) == told {
@@ -126,11 +126,15 @@ impl Reader<'_, '_> {
         };
         if seen.contains(&word) {
             let message = format!("expected {word} once, found it again");
-            self.builder.complain(codes::NET_LINE, span.unwrap_or(gate.span), message, "put all into one list");
+            let help = if word == "PRIORITY" || word == "IF" { "delete one of them" } else { "put all into one list" };
+            self.builder.complain(codes::NET_LINE, span.unwrap_or(gate.span), message, help);
         }
         seen.push(word);
         match clause {
-            GateClause::Read(arcs) => gate.reads = self.tested(&arcs),
+            GateClause::Read(arcs) => {
+                gate.reads = self.tested(&arcs);
+                self.readable(&gate.reads, &arcs);
+            }
             GateClause::Inhibit(arcs) => gate.inhibits = self.tested(&arcs),
             GateClause::Priority(priority, _) => gate.priority = priority,
             GateClause::Permit(terms) => {
@@ -161,7 +165,7 @@ impl Reader<'_, '_> {
     fn weight(&mut self, term: &ArcTerm) -> u32 {
         match term.weight {
             Some((0, span)) => {
-                self.builder.complain(
+                self.builder.miss(
                     codes::OUT_OF_RANGE,
                     span,
                     "expected a weight from 1, found 0",
@@ -191,6 +195,23 @@ impl Reader<'_, '_> {
             }
         }
         tested
+    }
+
+    /// A box of the net itself that must hold more tokens than it can would never let the gate fire.
+    fn readable(&mut self, reads: &[Tested], terms: &[ArcTerm]) {
+        for term in terms.iter().filter(|term| term.place.part.is_none()) {
+            let Some((Thing::Box(id), _)) = self.builder.names.get(&term.place.name.symbol).copied() else {
+                continue;
+            };
+            let weight =
+                reads.iter().find(|read| read.part.is_none() && read.place == id).map_or(0, |read| read.weight);
+            let place = self.builder.net.place(id);
+            if let Some(most) = place.capacity.filter(|most| weight > *most) {
+                let message = format!("expected at most {} in `{}`, found {weight}", counted(most), place.name);
+                let span = term.weight.map_or(term.place.span(), |(_, span)| span);
+                self.builder.complain(codes::CAPACITY, span, message, "the gate could never fire");
+            }
+        }
     }
 
     /// A box of a part.
@@ -256,11 +277,11 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn rule(&mut self, gate: &Gate, lines: RuleLines) -> Rule {
+    fn rule(&mut self, gate: &Gate, lines: RuleLines, after: &[ArcTerm]) -> Rule {
         let RuleLines { condition, routes, actions, span } = lines;
         let (looks, clears) =
             condition.as_ref().map_or((Vec::new(), Vec::new()), |condition| self.reads(gate, condition));
-        let moves = if routes.is_empty() { self.plain_moves(gate, span) } else { self.moves(gate, &routes, span) };
+        let moves = if routes.is_empty() { self.plain_moves(gate, after) } else { self.moves(gate, &routes, span) };
         let condition = condition.map(|condition| self.builder.statement(condition));
         let actions = actions.into_iter().map(|statement| self.builder.action(statement)).collect();
         Rule { condition, looks, clears, moves, actions, span }
@@ -289,28 +310,42 @@ impl Reader<'_, '_> {
 
     /// Without THEN: one before and one after, and the token moves; else each box after the gate gets the token of the
     /// first box before it.
-    fn plain_moves(&mut self, gate: &Gate, span: Span) -> Vec<Move> {
+    fn plain_moves(&mut self, gate: &Gate, after: &[ArcTerm]) -> Vec<Move> {
         let mut moves: Vec<Move> =
             (0..gate.before.len() as u32).map(|from| Move { from: Some(from), to: Vec::new() }).collect();
         let first = gate.before.first().map(|arc| self.builder.net.place(arc.place).class);
-        for (i, arc) in gate.after.iter().enumerate() {
+        for (i, (arc, term)) in gate.after.iter().zip(after).enumerate() {
             let place = self.builder.net.place(arc.place);
             match (place.class, first) {
+                _ if self.is_vague(arc) || gate.before.first().is_some_and(|arc| self.is_vague(arc)) => {
+                    moves.push(Move { from: None, to: vec![i as u32] });
+                }
                 (None, Some(_)) if first == Some(None) => moves[0].to.push(i as u32),
                 (None, _) => moves.push(Move { from: None, to: vec![i as u32] }),
                 (Some(class), Some(Some(own))) if class == own => moves[0].to.push(i as u32),
                 (Some(class), _) => {
-                    let class = self.builder.net.classes[class.0 as usize].name.clone();
+                    let classes = &self.builder.net.classes;
+                    let class = &classes[class.0 as usize].name;
+                    let found = match first {
+                        Some(Some(other)) => format!("one of `{}`", classes[other.0 as usize].name),
+                        Some(None) => "a plain one".to_owned(),
+                        None => "none".to_owned(),
+                    };
                     let message = format!(
-                        "expected a token of the class `{class}` for `{}`, found another or none before the gate",
+                        "expected a token of the class `{class}` for `{}`, found {found} before the gate",
                         place.name
                     );
                     let help = self.route_help(gate, arc.place);
-                    self.builder.complain(codes::TOKEN_CLASS, span, message, &help);
+                    self.builder.complain(codes::TOKEN_CLASS, term.place.span(), message, &help);
                 }
             }
         }
         moves
+    }
+
+    /// Whether the class of a box was a mistake.
+    fn is_vague(&self, arc: &Arc) -> bool {
+        self.builder.unclassed.contains(&arc.place)
     }
 
     /// The THEN lines that give a box a token of its class.
@@ -378,7 +413,9 @@ impl Reader<'_, '_> {
             Some(from) => class(self.builder, &gate.before[from as usize]),
             None => target,
         };
-        if source != target {
+        let vague = |arc: &Arc| self.is_vague(arc);
+        let unknown = vague(&gate.after[to as usize]) || from.is_some_and(|from| vague(&gate.before[from as usize]));
+        if source != target && !unknown {
             self.builder.complain(
                 codes::TOKEN_CLASS,
                 span,

@@ -8,12 +8,14 @@
 //! 5. `gates`: every token that a gate takes goes somewhere, and every one that it puts comes from somewhere.
 //! 6. `words`: every output is driven or written.
 //! 7. `operation`: an operator's modes and commands, and the names of what outputs tell, are known.
+//! 8. `operands`: every name that conditions and statements read is one of the net.
 //!
-//! Statements are not looked into here: the body of the declaration is compiled as a composite's is.
+//! Types of statements are not looked into here: the body of the declaration is compiled as a composite's is.
 
 mod boxes;
 mod gates;
 mod names;
+mod operands;
 mod operation;
 mod outline;
 mod parts;
@@ -32,7 +34,7 @@ use pcl2_lang::source::{Sources, Span};
 use pcl2_lang::suggest;
 use pcl2_lang::symbol::{Symbol, Symbols};
 use pcl2_lang::types::{Real, Scalar, Value};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What can go wrong in a scan of any net, in the order of the player's statuses.
 const FAULTS: [(&str, &str); 5] = [
@@ -70,6 +72,7 @@ pub fn compile(
     gates::gates(&mut builder, &mut outline);
     words::words(&mut builder, &outline);
     operation::operation(&mut builder, &outline);
+    operands::operands(&mut builder);
     let whole = builder.finish();
     (sound && mistakes(diagnostics) == before).then_some(whole)
 }
@@ -84,6 +87,10 @@ pub(crate) struct Builder<'a> {
     pub(crate) net: Net,
     /// All lines were understood.
     sound: bool,
+    /// Mistakes that were told before this net.
+    before: usize,
+    /// Boxes whose class is not known, which was reported.
+    unclassed: FxHashSet<BoxId>,
     sources: &'a Sources,
     symbols: &'a mut Symbols,
     catalogue: &'a Catalogue,
@@ -123,6 +130,8 @@ impl<'a> Builder<'a> {
             decl,
             net: Net::default(),
             sound,
+            before: mistakes(diagnostics),
+            unclassed: FxHashSet::default(),
             sources,
             symbols,
             catalogue,

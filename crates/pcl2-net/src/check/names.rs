@@ -11,6 +11,7 @@ use pcl2_lang::net::{
     Attribute, BOX_OUTPUT, BoxId, Class, Drive, Kind, MAX_COUNT, NetBox, Order, PartId, Word, WordId,
 };
 use pcl2_lang::source::Span;
+use pcl2_lang::suggest;
 use pcl2_lang::types::{Scalar, Value};
 
 /// Gives everything its place.
@@ -43,6 +44,7 @@ fn head(builder: &mut Builder<'_>, names: &HeadNames) {
             let message =
                 format!("expected an int or a real as output of a net, found another type for `{}`", output.name);
             builder.complain(codes::BAD_DECLARATION, name.span, message, "give each element an output of its own");
+            builder.names.insert(name.symbol, (Thing::Spoiled, name.span));
             continue;
         };
         builder.word(&output.name, scalar, zero(scalar), name.span);
@@ -171,7 +173,10 @@ impl Builder<'_> {
         }
         if port.is_none() {
             let message = format!("expected an input that is declared `cell int`, found `{text}`");
-            self.complain(codes::NET_LINE, name.span, message, "declare it in the head: `cell int start = 0`");
+            let cells = self.decl.ports().filter(|port| port.cell && port.ty == int).map(|port| port.name.as_str());
+            let help = suggest::help(text, cells);
+            let help = help.unwrap_or_else(|| format!("declare it in the head: `cell int {text} = 0`"));
+            self.complain(codes::NET_LINE, name.span, message, &help);
         }
         port
     }

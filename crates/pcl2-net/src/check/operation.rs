@@ -7,6 +7,7 @@ use pcl2_lang::ast::net::Halt;
 use pcl2_lang::codes;
 use pcl2_lang::decl::{Item, PortDecl, TypeExpr};
 use pcl2_lang::net::{Operation, WordId};
+use pcl2_lang::suggest;
 use pcl2_lang::types::{Scalar, Value};
 
 /// The modes, in the order of their numbers.
@@ -55,7 +56,10 @@ fn mode_port(builder: &mut Builder<'_>, name: Name) -> Option<usize> {
     let command = port.is_some_and(|port| builder.net.momentary.iter().any(|(known, _)| *known as usize == port));
     if port.is_none() || command {
         let message = format!("expected an int input as the mode, found `{text}`");
-        builder.complain(codes::NET_LINE, name.span, message, "declare it in the head: `cell int mode = 0`");
+        let ints = builder.decl.ports().filter(|port| port.ty == int).map(|port| port.name.as_str());
+        let help = suggest::help(&text, ints.filter(|known| *known != text));
+        let help = help.unwrap_or_else(|| format!("declare it in the head: `cell int {text} = 0`"));
+        builder.complain(codes::NET_LINE, name.span, message, &help);
     }
     port.filter(|_| !command)
 }

@@ -42,6 +42,8 @@ fn drive(builder: &mut Builder<'_>, index: usize) {
         }
         (false, None) => builder.net.words[index].drive = Drive::Level(levels),
         (true, Some(_)) => {}
+        // What drives it may be wrong otherwise, which was reported.
+        (true, None) if super::mistakes(builder.diagnostics) > builder.before => {}
         (true, None) if index < builder.net.outputs => {
             let message = format!("expected a box that drives `{name}` or a statement that writes it, found none");
             let help = format!("say `DRIVES {name}` at a box, or `DO {name} = ..`");
@@ -55,7 +57,15 @@ fn drive(builder: &mut Builder<'_>, index: usize) {
 fn active(builder: &mut Builder<'_>, line: &ActiveLine) {
     let step = output(builder, line.step, Scalar::Int, "ACTIVE");
     let time = line.time.map(|name| output(builder, name, Scalar::Real, "ACTIVE"));
-    let boxes: Vec<_> = line.boxes.iter().filter_map(|name| builder.own_box(*name)).collect();
+    let mut boxes = Vec::new();
+    for name in &line.boxes {
+        let place = builder.own_box(*name);
+        if place.is_some_and(|place| boxes.contains(&place)) {
+            let message = format!("expected each box once, found `{}` again", builder.written_text(name.span()));
+            builder.complain(codes::NET_LINE, name.span(), message, "the output gives the place of a box in the list");
+        }
+        boxes.extend(place);
+    }
     let (Some(step), Some(time)) = (step, time.map_or(Some(None), |time| time.map(Some))) else {
         return;
     };
