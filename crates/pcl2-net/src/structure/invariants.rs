@@ -98,23 +98,75 @@ impl Row {
 /// removed later.
 fn solutions(given: Vec<Entries>, columns: usize, limit: usize) -> Option<Vec<Vec<(u32, u64)>>> {
     let count = given.len();
-    let mut rows: Vec<Row> = given.into_iter().enumerate().map(|(i, rest)| first_row(i, rest, count)).collect();
+    let mut rows =
+        Rows { by_column: vec![Vec::new(); columns], signs: vec![Signs::default(); columns], ..Rows::default() };
+    for (i, rest) in given.into_iter().enumerate() {
+        rows.insert(first_row(i, rest, count));
+    }
     let mut budget = Budget { rows: limit, words: (limit as u64).saturating_mul(WORDS_A_ROW) };
     if count > limit {
         return None;
     }
     let mut eliminated = 0;
-    while let Some(column) = next_column(&rows, columns) {
-        rows = eliminate(rows, column, eliminated, &mut budget)?;
+    while let Some(column) = next_column(&rows.signs) {
+        eliminate(&mut rows, column, eliminated, &mut budget)?;
         eliminated += 1;
     }
-    let mut found = Vec::with_capacity(rows.len());
-    for row in rows {
+    let mut found = Vec::with_capacity(rows.slots.len());
+    for row in rows.slots.into_iter().flatten() {
         let weights = row.weights.into_iter().map(|(id, weight)| Some((id, u64::try_from(weight).ok()?)));
         found.push(weights.collect::<Option<Vec<_>>>()?);
     }
     found.sort();
     Some(found)
+}
+
+/// The rows of now. A slot whose row is gone takes another.
+#[derive(Default)]
+struct Rows {
+    slots: Vec<Option<Row>>,
+    free: Vec<u32>,
+    /// By column the slots of rows that are not zero there; of some the row is another now.
+    by_column: Vec<Vec<u32>>,
+    signs: Vec<Signs>,
+}
+
+impl Rows {
+    fn insert(&mut self, row: Row) {
+        let slot = self.free.pop().unwrap_or(self.slots.len() as u32);
+        for (column, value) in &row.rest {
+            self.by_column[*column as usize].push(slot);
+            self.signs[*column as usize].count(*value, 1);
+        }
+        match self.slots.get_mut(slot as usize) {
+            Some(place) => *place = Some(row),
+            None => self.slots.push(Some(row)),
+        }
+    }
+
+    fn remove(&mut self, slot: u32) {
+        let Some(row) = self.slots[slot as usize].take() else {
+            return;
+        };
+        row.rest.iter().for_each(|(column, value)| self.signs[*column as usize].count(*value, -1));
+        self.free.push(slot);
+    }
+
+    /// The slots of rows that are not zero in a column, with their values there.
+    fn in_column(&mut self, column: u32) -> Vec<(u32, i128)> {
+        let mut slots = std::mem::take(&mut self.by_column[column as usize]);
+        slots.sort_unstable();
+        slots.dedup();
+        let value = |slot: u32| {
+            let rest = &self.slots[slot as usize].as_ref()?.rest;
+            rest.binary_search_by_key(&column, |entry| entry.0).ok().map(|at| rest[at].1)
+        };
+        slots.into_iter().filter_map(|slot| Some((slot, value(slot)?))).collect()
+    }
+
+    fn pair(&self, a: u32, b: u32) -> Option<(&Row, &Row)> {
+        self.slots[a as usize].as_ref().zip(self.slots[b as usize].as_ref())
+    }
 }
 
 fn first_row(index: usize, rest: Entries, count: usize) -> Row {
@@ -135,42 +187,51 @@ impl Budget {
     }
 }
 
-/// The column whose elimination makes the number of rows grow least.
-fn next_column(rows: &[Row], columns: usize) -> Option<u32> {
-    let mut signs = vec![(0_i64, 0_i64); columns];
-    for (column, value) in rows.iter().flat_map(|row| &row.rest) {
-        let (positive, negative) = &mut signs[*column as usize];
-        *(if *value > 0 { positive } else { negative }) += 1;
-    }
-    let used = (0_u32..).zip(signs).filter(|(_, (positive, negative))| positive + negative > 0);
-    let growth = |(positive, negative): (i64, i64)| positive.saturating_mul(negative) - positive - negative;
-    used.min_by_key(|(_, signs)| growth(*signs)).map(|(column, _)| column)
+/// How many rows are positive in a column, and how many negative.
+#[derive(Clone, Copy, Default)]
+struct Signs {
+    positive: i64,
+    negative: i64,
 }
 
-fn eliminate(rows: Vec<Row>, column: u32, eliminated: usize, budget: &mut Budget) -> Option<Vec<Row>> {
-    let value = |row: &Row| row.rest.binary_search_by_key(&column, |entry| entry.0).map_or(0, |at| row.rest[at].1);
-    let values: Vec<i128> = rows.iter().map(value).collect();
-    let with = |wanted: fn(i128) -> bool| (0..rows.len()).filter(|i| wanted(values[*i])).collect::<Vec<_>>();
-    let (positive, negative) = (with(|value| value > 0), with(|value| value < 0));
-    let kept = rows.len() - positive.len() - negative.len();
+impl Signs {
+    /// A row with this value comes (1) or goes (-1).
+    fn count(&mut self, value: i128, times: i64) {
+        *(if value > 0 { &mut self.positive } else { &mut self.negative }) += times;
+    }
+}
+
+/// The column whose elimination makes the number of rows grow least.
+fn next_column(signs: &[Signs]) -> Option<u32> {
+    let used = (0_u32..).zip(signs).filter(|(_, signs)| signs.positive + signs.negative > 0);
+    let growth = |signs: &Signs| signs.positive.saturating_mul(signs.negative) - signs.positive - signs.negative;
+    used.min_by_key(|(_, signs)| growth(signs)).map(|(column, _)| column)
+}
+
+/// Replaces the rows that are not zero in a column by combinations that are.
+fn eliminate(rows: &mut Rows, column: u32, eliminated: usize, budget: &mut Budget) -> Option<()> {
+    let touched = rows.in_column(column);
+    let live = rows.slots.len() - rows.free.len();
+    let (positive, negative): (Vec<_>, Vec<_>) = touched.iter().partition(|(_, value)| *value > 0);
     let mut combined = Vec::new();
-    for plus in &positive {
-        for minus in &negative {
-            if are_neighbours(&rows, *plus, *minus, eliminated, budget)? {
-                combined.push(combine(&rows[*plus], &rows[*minus], values[*plus], values[*minus])?);
-                budget.rows.checked_sub(kept + combined.len())?;
+    for (plus, plus_value) in &positive {
+        for (minus, minus_value) in &negative {
+            if are_neighbours(rows, *plus, *minus, eliminated, budget)? {
+                let (plus, minus) = rows.pair(*plus, *minus)?;
+                combined.push(combine(plus, minus, *plus_value, *minus_value)?);
+                budget.rows.checked_sub(live - touched.len() + combined.len())?;
             }
         }
     }
-    let mut left: Vec<Row> =
-        rows.into_iter().zip(values).filter(|(_, value)| *value == 0).map(|(row, _)| row).collect();
-    left.append(&mut combined);
-    Some(left)
+    touched.iter().for_each(|(slot, _)| rows.remove(*slot));
+    combined.into_iter().for_each(|row| rows.insert(row));
+    Some(())
 }
 
 /// Whether the smallest face of the cone with both rows is the one between them.
-fn are_neighbours(rows: &[Row], a: usize, b: usize, eliminated: usize, budget: &mut Budget) -> Option<bool> {
-    let (a_support, b_support) = (&rows[a].support, &rows[b].support);
+fn are_neighbours(rows: &Rows, a: u32, b: u32, eliminated: usize, budget: &mut Budget) -> Option<bool> {
+    let (a_row, b_row) = rows.pair(a, b)?;
+    let (a_support, b_support) = (&a_row.support, &b_row.support);
     let words = a_support.as_slice().len() + 1;
     budget.spend(words)?;
     // A face of dimension 2 leaves at most two unknowns more than there are equations.
@@ -179,9 +240,9 @@ fn are_neighbours(rows: &[Row], a: usize, b: usize, eliminated: usize, budget: &
     }
     let both = a_support | b_support;
     let mut compared = 0;
-    let third = rows.iter().enumerate().any(|(i, row)| {
-        compared += 1;
-        i != a && i != b && row.is_within(&both)
+    let third = (0_u32..).zip(&rows.slots).any(|(i, row)| {
+        compared += usize::from(row.is_some());
+        i != a && i != b && row.as_ref().is_some_and(|row| row.is_within(&both))
     });
     budget.spend(compared * words)?;
     Some(!third)

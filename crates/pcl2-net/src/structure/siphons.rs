@@ -118,12 +118,12 @@ impl Flow {
 
     /// The largest siphon within a set: a node that gets tokens from outside the set is no part of it.
     fn largest_siphon(&self, within: &FixedBitSet) -> FixedBitSet {
-        largest(within, &self.inputs, &self.outputs, &self.readers)
+        largest(within, &self.outputs, &self.readers, &self.writers)
     }
 
     /// The largest trap within a set.
     fn largest_trap(&self, within: &FixedBitSet) -> FixedBitSet {
-        largest(within, &self.outputs, &self.inputs, &self.writers)
+        largest(within, &self.inputs, &self.writers, &self.readers)
     }
 
     fn has_marked_trap(&self, within: &FixedBitSet) -> bool {
@@ -193,22 +193,30 @@ fn uncapped(net: &PtNet) -> PtNet {
     net
 }
 
-/// Removes from a set the outputs of transitions without an input in it, until none is left.
-fn largest(within: &FixedBitSet, inputs: &[Vec<u32>], outputs: &[Vec<u32>], readers: &[Vec<u32>]) -> FixedBitSet {
+/// Removes from a set the outputs of transitions without an input in it, until none is left. Only what touches the set
+/// is looked at: most sets are small.
+fn largest(within: &FixedBitSet, outputs: &[Vec<u32>], readers: &[Vec<u32>], writers: &[Vec<u32>]) -> FixedBitSet {
     let mut set = within.clone();
-    let mut fed: Vec<usize> =
-        inputs.iter().map(|nodes| nodes.iter().filter(|node| set.contains(**node as usize)).count()).collect();
-    let mut starved: VecDeque<usize> = (0..fed.len()).filter(|transition| fed[*transition] == 0).collect();
+    let mut fed = vec![0_u32; outputs.len()];
+    set.ones().flat_map(|node| &readers[node]).for_each(|reader| fed[*reader as usize] += 1);
+    let mut starved = VecDeque::new();
+    for writer in set.ones().flat_map(|node| &writers[node]) {
+        if fed[*writer as usize] == 0 {
+            // It has no input to lose: once is enough.
+            fed[*writer as usize] = u32::MAX;
+            starved.push_back(*writer);
+        }
+    }
     while let Some(transition) = starved.pop_front() {
-        for node in outputs[transition].iter().map(|node| *node as usize) {
+        for node in outputs[transition as usize].iter().map(|node| *node as usize) {
             if !set.contains(node) {
                 continue;
             }
             set.set(node, false);
-            for reader in readers[node].iter().map(|reader| *reader as usize) {
-                fed[reader] -= 1;
-                if fed[reader] == 0 {
-                    starved.push_back(reader);
+            for reader in &readers[node] {
+                fed[*reader as usize] -= 1;
+                if fed[*reader as usize] == 0 {
+                    starved.push_back(*reader);
                 }
             }
         }
