@@ -401,9 +401,11 @@ fn set_type(scope: &mut Scope<'_>, index: usize, output: usize, ty: Type, diagno
             wire.spoiled = true;
             let draft = &scope.drafts[index];
             let at = draft.statement.outputs.get(output).map_or(draft.statement.code.span, |o| o.span());
-            let message = format!("{}: expected {known} for `{name}`, as it is elsewhere, found {ty}", draft.title());
+            let first = first.map(|first| &scope.drafts[first]);
+            let is = if first.is_some() { "is elsewhere" } else { "is declared" };
+            let message = format!("{}: expected {known} for `{name}`, as it {is}, found {ty}", draft.title());
             let report = Diagnostic::new(codes::TYPE_DIFFERS, at, message);
-            let report = match first.map(|first| &scope.drafts[first]) {
+            let report = match first {
                 Some(first) => report.label(writer_span(first, id), format!("{} makes it {known}", first.title())),
                 None => report,
             };
