@@ -145,6 +145,8 @@ pub const DRIVE: Code = error("P0407");
 pub const NET_LINE: Code = error("P0408");
 /// A condition that is no truth value.
 pub const CONDITION: Code = error("P0409");
+/// A statement writes to a token that is not there yet.
+pub const LOST_WRITE: Code = warning("P0410");
 
 // P05xx: declarations, configuration and target.
 

@@ -4,7 +4,7 @@ use super::boxes::counted;
 use super::outline::{GateLines, Outline, RuleLines};
 use super::{Builder, Thing};
 use pcl2_lang::ast::net::{ArcTerm, BoxName, GateClause, Route};
-use pcl2_lang::ast::{Operand, Statement};
+use pcl2_lang::ast::{Operand, Output, Statement};
 use pcl2_lang::codes;
 use pcl2_lang::diagnostic::Diagnostic;
 use pcl2_lang::net::{Arc, BoxId, Gate, GateId, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
@@ -282,9 +282,34 @@ impl Reader<'_, '_> {
         let (looks, clears) =
             condition.as_ref().map_or((Vec::new(), Vec::new()), |condition| self.reads(gate, condition));
         let moves = if routes.is_empty() { self.plain_moves(gate, after) } else { self.moves(gate, &routes, span) };
+        actions.iter().for_each(|statement| self.not_there_yet(gate, &moves, statement));
         let condition = condition.map(|condition| self.builder.statement(condition));
         let actions = actions.into_iter().map(|statement| self.builder.action(statement)).collect();
         Rule { condition, looks, clears, moves, actions, span }
+    }
+
+    /// A box that takes one token is empty when a gate puts its token there: what a statement
+    /// of the gate writes to it is lost.
+    fn not_there_yet(&mut self, gate: &Gate, moves: &[Move], statement: &Statement) {
+        for output in &statement.outputs {
+            let Output::Member(owner, member) = output else {
+                continue;
+            };
+            let Some((Thing::Box(id), _)) = self.builder.names.get(&owner.symbol).copied() else {
+                continue;
+            };
+            let at_hand = gate.before.iter().any(|arc| arc.place == id);
+            let index = gate.after.iter().position(|arc| arc.place == id && !at_hand).map(|index| index as u32);
+            let from = index.and_then(|index| moves.iter().find(|way| way.to.contains(&index))?.from);
+            let place = self.builder.net.place(id);
+            if let Some(from) = from.filter(|_| place.capacity == Some(1)) {
+                let source = &self.builder.net.place(gate.before[from as usize].place).name;
+                let message =
+                    format!("expected a box that has a token, found `{}`, which gets it by this gate", place.name);
+                let help = format!("the token is still that of `{source}`: `{source}.{}`", self.builder.text(*member));
+                self.builder.complain(codes::LOST_WRITE, owner.span, message, &help);
+            }
+        }
     }
 
     /// The boxes whose tokens a condition looks at, and the commands that it reads.
