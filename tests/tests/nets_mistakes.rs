@@ -95,6 +95,7 @@ fn signs_of_other_languages_make_no_silent_comments() {
         ("( b != 1 )", "P0011", "bad.net:4:27"),
         ("( NOT b AND\nb != 1 )", "P0011", "bad.net:5:3"),
         ("!b", "P0002", "`!` begins a comment; negation is `NOT`"),
+        ("( b AND (!b) )", "P0003", "`!` begins a comment, negation is `NOT`"),
         ("b AND !b", "P0002", "`!` begins a comment; negation is `NOT`"),
     ];
     for (condition, code, words) in conditions {

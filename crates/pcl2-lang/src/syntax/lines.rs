@@ -219,15 +219,26 @@ impl<'a> Lines<'a> {
     }
 
     fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::UNCLOSED,
-                self.span(open),
-                "expected `)`, found the next statement or the end of the file",
-            )
-            .help("close this parenthesis"),
-        );
+        let message = "expected `)`, found the next statement or the end of the file";
+        let help = match self.comment_closes() {
+            true => "close this parenthesis; `!` begins a comment, negation is `NOT`",
+            false => "close this parenthesis",
+        };
+        diagnostics.push(Diagnostic::new(codes::UNCLOSED, self.span(open), message).help(help));
     }
+
+    /// Whether a comment behind the line looks like a negated operand and its parenthesis.
+    fn comment_closes(&self) -> bool {
+        let behind = self.source.text.get(self.position() as usize..).unwrap_or_default();
+        let line = behind.split(['\r', '\n']).next().unwrap_or_default();
+        let comment = line.trim_start_matches([' ', '\t']).strip_prefix('!');
+        comment.is_some_and(|comment| negates(comment) && comment.contains(')'))
+    }
+}
+
+/// Whether a comment, its `!` left off, begins as an operand does.
+pub(super) fn negates(comment: &str) -> bool {
+    comment.starts_with(|first: char| first.is_ascii_alphanumeric() || first == '(')
 }
 
 /// Whether what stands behind `K =` is the value of a named argument, and neither a call nor an expression.

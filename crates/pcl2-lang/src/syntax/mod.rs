@@ -40,8 +40,8 @@ mod lines;
 mod nets;
 mod wording;
 
-use lines::is_comparison;
 pub(crate) use lines::{Lines, Words};
+use lines::{is_comparison, negates};
 pub(crate) use nets::parse_net_lines;
 use wording::{HEAD, declares, form_help, list};
 
@@ -519,8 +519,7 @@ impl<'a> Context<'a> {
         let end = tokens.last().map_or(0, |last| last.end);
         let behind = self.text.get(end as usize..).unwrap_or_default();
         let comment = behind.trim_start_matches([' ', '\t']).strip_prefix('!');
-        let meant = |comment: &str| comment.starts_with(|first: char| first.is_ascii_alphanumeric() || first == '(');
-        place.end == end && comment.is_some_and(meant)
+        place.end == end && comment.is_some_and(negates)
     }
 
     /// A reserved word where a new name is due, or a name that starts with `_`.
