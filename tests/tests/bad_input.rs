@@ -22,6 +22,9 @@ fn programs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     vec![
         ("empty", Vec::new(), "empty.cfg:1:1"),
         ("blank", text("\n\n   \n"), "error[P00"),
+        ("windows", utf_16("CONTROL\n1 x = msc ( : 1. )\nEND\n", u16::to_le_bytes), "found UTF-16"),
+        ("windows_big", utf_16("CONTROL\nEND\n", u16::to_be_bytes), "found UTF-16"),
+        ("unequal", line("2 y = first ( x != 2. : 1., 1., )"), "error[P0011]"),
         ("zeros", vec![0; 1000], "error[P00"),
         ("binary", (0..=255).cycle().take(100_000).collect(), "error[P00"),
         ("no_end", text("CONTROL\n1 x = msc ( : 1. )\n"), "error[P0006]"),
@@ -60,6 +63,31 @@ fn programs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("many_errors", line(&"2 y = nothing ( z : )\n".repeat(20_000)), "error[P0101]"),
         ("carriage", text("CONTROL\r1 x = mcs ( : 1. )\rEND\r"), "carriage.cfg:2:7"),
     ]
+}
+
+/// A text as the shells of Windows save it, with a mark before it.
+fn utf_16(text: &str, bytes: impl Fn(u16) -> [u8; 2]) -> Vec<u8> {
+    std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(bytes).collect()
+}
+
+/// Nets and blocks of one's own are read as programs are.
+#[test]
+fn nets_and_blocks_that_are_no_text_are_told_once() {
+    let work = folder();
+    let net = "int q = lamp ( int b : )\nSTATE off MARKED DRIVES q\nEND\n";
+    let block = "int y = half ( int x : )\nINLINE\n";
+    let program = "CONTROL\n1 b = msi ( : 1 )\n2 c = lamp ( b : )\nEND\n";
+    fs::write(work.path().join("lamp.net"), utf_16(net, u16::to_le_bytes)).unwrap();
+    fs::write(work.path().join("main.cfg"), program).unwrap();
+    fs::create_dir(work.path().join("own")).unwrap();
+    fs::write(work.path().join("own/half.fc"), utf_16(block, u16::to_le_bytes)).unwrap();
+    fs::write(work.path().join("half.cfg"), "CONTROL\n1 b = msi ( : 1 )\n2 c = half ( b : )\nEND\n").unwrap();
+    for args in [&["check", "lamp.net"][..], &["check", "main.cfg"], &["check", "--blocks", "own", "half.cfg"]] {
+        let (status, said) = bounded(args, work.path());
+        assert_eq!(status, Some(1), "{args:?}: {said}");
+        assert!(said.contains("error[P0008]: expected ASCII or UTF-8 text, found UTF-16"), "{args:?}: {said}");
+        assert_eq!(said.matches("error[").count(), 1, "{args:?}: {said}");
+    }
 }
 
 fn prepare(at: &Path) {

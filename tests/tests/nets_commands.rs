@@ -109,6 +109,71 @@ fn a_net_is_composed_of_its_modules() {
     );
 }
 
+/// A file has one matrix: a second one is told at its line, blank lines counted, and how to write one alone.
+#[test]
+fn a_file_with_several_matrices_is_not_composed() {
+    let work = folder();
+    let file = work.path().join("tank.csv");
+    for (args, found) in [(&["--csv"][..], "found a second matrix"), (&["--csv", "--kind", "change"], "fields, found")]
+    {
+        let text = done("matrix", &net("tank.net"), args);
+        let second = text.lines().position(str::is_empty).unwrap() + 2;
+        fs::write(&file, text).unwrap();
+        refused("compose", &file, &[], 1, &format!("line {second}: expected "));
+        refused("compose", &file, &[], 1, found);
+        refused("compose", &file, &[], 1, "a file has one matrix: `net matrix --csv` writes one with --of and --kind");
+    }
+    fs::write(&file, "B,t\r\n\r\n\r\np,1\r\np,2\r\n").unwrap();
+    refused("compose", &file, &[], 1, "line 5, column 1: `p` stands in an earlier row");
+    refused("compose", &file, &["--kind", "takes"], 2, "expected one .net file with --kind, found others");
+}
+
+/// One is not several.
+#[test]
+fn one_place_and_one_transition_are_told_so() {
+    let work = folder();
+    let file = work.path().join("one.net");
+    fs::write(&file, "= one ( int b : )\nSTATE a MARKED\nGATE g : a -> IF b\nEND\n").unwrap();
+    let analysis = done("analyze", &file, &[]);
+    let words = "1 place, 1 transition; the incidence matrix has 1 entry that is not 0\n";
+    assert!(analysis.contains(words), "{analysis}");
+    assert!(done("matrix", &file, &[]).starts_with("net one, 1 place, 1 transition\n"));
+    assert!(done("report", &file, &["-o", work.path().to_str().unwrap()]).is_empty());
+    let report = fs::read_to_string(work.path().join("one.md")).unwrap();
+    assert!(report.contains("1 box, 1 gate."), "{report}");
+}
+
+/// The rules of a gate stand below one another, without a blank line.
+#[test]
+fn rules_written_flat_follow_one_another() {
+    let work = folder();
+    let file = work.path().join("two.net");
+    let rules = "GATE g : a -> c, d\nIF b\nTHEN a -> c\nIF NOT b\nTHEN a -> d\nELSE\nTHEN a -> nothing\n";
+    fs::write(&file, format!("= two ( int b : )\nSTATE a MARKED\nSTATE c\nSTATE d\n{rules}END\n")).unwrap();
+    let flat = done("flatten", &file, &[]);
+    assert!(flat.contains(rules), "{flat}");
+}
+
+/// Arcs of other kinds are no ordinary ones, whichever way a tool writes their type.
+#[test]
+fn arcs_of_other_types_are_refused() {
+    let work = folder();
+    let file = work.path().join("arc.pnml");
+    let written = |arc: &str| {
+        let nodes = "<place id=\"p\"/><transition id=\"t\"/>";
+        let net = "net id=\"n\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\"";
+        fs::write(&file, format!("<pnml><{net}><page id=\"g\">{nodes}{arc}</page></net></pnml>")).unwrap();
+    };
+    let ends = "source=\"p\" target=\"t\"";
+    let words = "expected an ordinary arc, found one of the type `inhibitor`";
+    written(&format!("<arc {ends} type=\"inhibitor\"/>"));
+    refused("matrix", &file, &[], 1, words);
+    written(&format!("<arc {ends}><type value=\"inhibitor\"/></arc>"));
+    refused("matrix", &file, &[], 1, words);
+    written(&format!("<arc {ends} type=\"normal\"/>"));
+    assert!(done("matrix", &file, &[]).starts_with("net n, 1 place, 1 transition\n"));
+}
+
 /// What is not zero, with its names, in order.
 fn cells(csv: &str) -> Vec<(String, String, String)> {
     let mut reader = csv::Reader::from_reader(csv.as_bytes());
@@ -133,9 +198,9 @@ fn a_sequence_is_fired_after_the_state_equation() {
     let csv = done("fire", &net("tank.net"), &["--csv", "tp11"]);
     assert!(csv.starts_with("k,S0,S1,S2,S3,S4,S5,S6,P0,P1,") && csv.lines().count() == 3, "{csv}");
     let tank = net("tank.net");
-    let tokens = "scan 1: `t1` is not enabled: expected 1 token to take from `S1`, found 0";
+    let tokens = "scan 2: `t1` is not enabled: expected 1 token to take from `S1`, found 0";
     refused("fire", &tank, &["tp11 t1"], 1, tokens);
-    refused("fire", &tank, &["{tp11 t0}"], 1, "scan 0: `t0` is not enabled: expected 1 token to read in `P1`, found 0");
+    refused("fire", &tank, &["{tp11 t0}"], 1, "scan 1: `t0` is not enabled: expected 1 token to read in `P1`, found 0");
     refused("fire", &tank, &["tp12"], 1, "expected a transition of the net, found `tp12` (did you mean `tp10`?)");
     refused("fire", &tank, &["{tp11"], 1, "expected `}` at the end of the sequence");
     refused("fire", &tank, &["tp11}"], 1, "expected `{` before `}`");

@@ -112,6 +112,132 @@ fn mistakes_are_told_together_and_nothing_that_follows() {
     assert_eq!(shown.matches("error[").count(), 1, "{shown}");
 }
 
+/// A net that is told one thing: the code, and some words of what is shown.
+fn told_once(text: &str, code: &str, words: &str) {
+    let (status, shown) = checked(text);
+    assert_eq!(status, Some(1), "{text}\n{shown}");
+    assert_eq!(shown.matches("error[").count(), 1, "{text}\n{shown}");
+    assert!(shown.contains(code) && shown.contains(words), "{code} {words} for\n{text}\nfound\n{shown}");
+}
+
+const SWITCH: &str =
+    "int q = bad ( int b : )\nSTATE off MARKED\nSTATE on DRIVES q\nGATE g : off -> on IF b\nGATE h : on -> off\n";
+
+/// `!` begins a comment: a condition that another language's signs cut short is not compiled.
+#[test]
+fn signs_of_other_languages_make_no_silent_comments() {
+    let conditions = [
+        ("b != 1", "P0011", "bad.net:4:25"),
+        ("( b != 1 )", "P0011", "bad.net:4:27"),
+        ("( NOT b AND\nb != 1 )", "P0011", "bad.net:5:3"),
+        ("!b", "P0002", "`!` begins a comment; negation is `NOT`"),
+        ("( b AND (!b) )", "P0003", "`!` begins a comment, negation is `NOT`"),
+        ("b AND !b", "P0002", "`!` begins a comment; negation is `NOT`"),
+    ];
+    for (condition, code, words) in conditions {
+        told_once(&format!("{}END\n", SWITCH.replace("IF b", &format!("IF {condition}"))), code, words);
+    }
+    for comment in ["! = note", "!==== note", "!b", "! != 1"] {
+        let text = format!("{}END\n", SWITCH.replace("IF b", &format!("IF b {comment}")));
+        assert_eq!(checked(&text), (Some(0), String::new()), "{comment}");
+    }
+}
+
+/// Repeated lines are left out when it is not known how often they run.
+#[test]
+fn of_a_wrong_for_only_the_for_is_told() {
+    let body = "CAPACITY p[i] MARKED\nCAPACITY s[i]\nGATE k[i] : p[i] -> s[i]\n";
+    let cases = [
+        ("FOR i = 1 TO 3", "", "P0003", "expected NEXT after FOR"),
+        ("FOR i = 1, 3", "NEXT\n", "P0002", "expected `TO`, found `,`"),
+        ("FOR i = 1 TO n", "NEXT\n", "P0002", "expected a number, found `n`"),
+        ("FOR i = 1 TO 3 STEP 2", "NEXT\n", "P0002", "expected the end of the line, found `STEP`"),
+        ("FOR i = 1.0 TO 3", "NEXT\n", "P0002", "expected an integer, found `1.0`"),
+        ("FOR i = 1.0 TO 3", "", "P0002", "expected an integer, found `1.0`"),
+        ("FOR i = 1 TO n\nFOR j = 1 TO 2", "NEXT\nNEXT\n", "P0002", "bad.net:6:14"),
+        ("FOR i = 1 TO 2\nFOR i = 1 TO 2", "NEXT\nNEXT\n", "P0402", "bad.net:7:5"),
+        ("FOR i = 2147483646 TO 2147483647\nSTATE r[i+5]", "NEXT\n", "P0004", "found 2147483651"),
+    ];
+    for (line, next, code, words) in cases {
+        told_once(&format!("{SWITCH}{line}\n{body}{next}END\n"), code, words);
+    }
+}
+
+/// Signs that look like `->`, and what Windows writes.
+#[test]
+fn signs_that_look_right_are_told_once() {
+    for (sign, words) in [
+        ("\u{2212}>", "help: type `-`"),
+        ("\u{2013}>", "help: type `-`"),
+        ("\u{2192}", "help: type `->`"),
+        ("\u{21d2}", "help: type `->`"),
+    ] {
+        let text = format!("{}END\n", SWITCH.replace("off -> on", &format!("off {sign} on")));
+        told_once(&text, "P0001", words);
+    }
+    let text = format!("{}END\n", SWITCH.replace("IF b", "IF b \u{2260} 1"));
+    told_once(&text, "P0001", "help: type `<>`");
+}
+
+/// A reserved word is a bad name where a new one is due; elsewhere something is missing before it.
+#[test]
+fn a_reserved_word_is_a_bad_name_only_where_one_is_declared() {
+    let cases = [
+        ("TIME t MARKED", "P0002", "a box is `TIME name seconds"),
+        ("COUNT t MARKED", "P0002", "a box is `COUNT name tokens"),
+        ("ABORT IF b -> off", "P0002", "a macro is emptied by `ABORT condition -> box`"),
+        ("GATE m : on -> off, IF b", "P0002", "a gate is `GATE name : before, .. -> after, .."),
+        ("GATE m : on -> off READ IF b", "P0002", "a gate is `GATE name : before, .. -> after, .."),
+        ("GATE m : 2.*on -> off", "P0002", "an integer"),
+        ("STATE z DRIVES NOT q", "P0002", "a box is `STATE name"),
+        ("MODULE m = s2 ( NOT b : )", "P0002", "found the reserved word `NOT`"),
+        ("STATE MARKED", "P0106", "take another name"),
+        ("LOCAL int IF", "P0106", "take another name"),
+        ("FOR IF = 1 TO 2\nNEXT", "P0106", "take another name"),
+    ];
+    for (line, code, words) in cases {
+        told_once(&format!("{SWITCH}{line}\nEND\n"), code, words);
+    }
+}
+
+/// Words of clauses, a second head and a second statement have their place elsewhere.
+#[test]
+fn lines_that_belong_elsewhere_say_where() {
+    let gate = "it stands in the line of a gate, behind the boxes";
+    let cases = [
+        ("PRIORITY 2", gate),
+        ("PERMIT b", gate),
+        ("READ off", gate),
+        ("UNTIL b", "it stands in the line of a box, behind the name"),
+        ("MARKED", "it stands in the line of a box, behind the name"),
+        ("AND b", "a condition goes on in the next line only inside parentheses"),
+        ("int r = other ( int b : )", "a net has one head, in its first line"),
+        ("SIGNAL z DO n = 1 DO n = 2", "bad.net:6:19"),
+        ("SIGNAL z DO n = 1 DO n = 2", "a DO has one statement: put the next one on a line of its own below"),
+        ("SIGNAL z DO n = 0, n = 1", "a DO has one statement: put the next one on a line of its own below"),
+        ("SIGNAL z DO n = not1 ( b : ), n = 1", "a DO has one statement"),
+    ];
+    for (line, words) in cases {
+        told_once(&format!("{SWITCH}{line}\nEND\n"), "P0002", words);
+    }
+}
+
+/// A head that is not whole hides nothing below it, and nothing follows from it.
+#[test]
+fn of_a_wrong_head_only_the_head_is_told() {
+    let cases = [
+        (SWITCH.replace("int b : )", "b : )"), "P0501", "expected a type before `b`, found none"),
+        (SWITCH.replace("int b : )", "int b :"), "P0003", "bad.net:1:13"),
+        (SWITCH.replace("int b : )", "int b,\nint c :"), "P0003", "bad.net:1:13"),
+        (String::new(), "P0501", "expected the head of a net, found END"),
+    ];
+    for (lines, code, words) in cases {
+        told_once(&format!("{lines}END\n"), code, words);
+    }
+    let (_, shown) = checked(&format!("{}GATE k a\nEND\n", SWITCH.replace("int b : )", "int b :")));
+    assert!(shown.contains("P0003") && shown.contains("bad.net:6:8"), "{shown}");
+}
+
 /// A mistake in the head points at the name there; two things of one name are told once, not again where the name is
 /// used; a help can be followed.
 #[test]

@@ -409,6 +409,17 @@ pub fn ascii_of_bytes(first: u8, second: u8) -> Option<char> {
     }
 }
 
+/// What is written in ASCII for a sign of mathematics, and its token.
+pub fn sign_of(character: char) -> Option<(&'static str, Token)> {
+    match character {
+        '→' | '⇒' => Some(("->", Token::Arrow)),
+        '≠' => Some(("<>", Token::Differ)),
+        '≤' => Some(("<=", Token::LessEqual)),
+        '≥' => Some((">=", Token::GreaterEqual)),
+        _ => None,
+    }
+}
+
 /// The token of one ASCII punctuation character.
 pub fn token_of(character: char) -> Option<Token> {
     match character {

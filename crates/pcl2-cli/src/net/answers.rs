@@ -6,6 +6,7 @@ use pcl2_net::space::Semantics;
 use pcl2_net::structure::conflicts::{Conflict, Over};
 use pcl2_net::structure::invariants::{Invariant, weighted_tokens};
 use pcl2_net::structure::matrix::{Matrix, MatrixKind};
+use pcl2_net::structure::names::{counted, size};
 use pcl2_net::structure::siphons::{Member, Siphon};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -92,11 +93,9 @@ impl<'a> Report<'a> {
         let matrix = Matrix::of(self.net, MatrixKind::Change);
         let entries: usize = (0..matrix.rows.len()).map(|row| matrix.row(row).len()).sum();
         let mut text = Text(format!("{}\n", self.net.name));
-        text.line(&format!(
-            "{} places, {} transitions; the incidence matrix has {entries} entries that are not 0",
-            self.net.places.len(),
-            self.net.transitions.len()
-        ));
+        let size = size(self.net.places.len(), self.net.transitions.len());
+        let entries = counted(entries, "entry that is", "entries that are");
+        text.line(&format!("{size}; the incidence matrix has {entries} not 0"));
         self.structure(&mut text);
         self.markings(&mut text);
         self.behaviour(&mut text);

@@ -21,9 +21,9 @@ pub(crate) struct ComposeArgs {
     /// Print the matrix alone, as CSV
     #[arg(long)]
     csv: bool,
-    /// Of a .net file: which matrix
-    #[arg(long, value_enum, default_value_t = Kind::Change)]
-    kind: Kind,
+    /// Of a .net file: which matrix; B = B+ - B- if not given
+    #[arg(long, value_enum)]
+    kind: Option<Kind>,
     /// A folder with nets
     #[arg(long, value_name = "DIR")]
     blocks: Vec<PathBuf>,
@@ -32,7 +32,16 @@ pub(crate) struct ComposeArgs {
 /// Puts a net's matrix together.
 pub(crate) fn compose(args: &ComposeArgs) -> Outcome {
     let found = match args.paths.as_slice() {
-        [path] if is_net(path) => load_flat(path, &args.blocks).map(|flat| pieces(&flat, args.kind.of())),
+        [path] if is_net(path) => {
+            let kind = args.kind.unwrap_or(Kind::Change);
+            load_flat(path, &args.blocks).map(|flat| pieces(&flat, kind.of()))
+        }
+        _ if args.kind.is_some() => {
+            console::error(
+                "expected one .net file with --kind, found others: a .csv file has one matrix, of its own kind",
+            );
+            return Outcome::Usage;
+        }
         paths => paths.iter().map(|path| piece(path)).collect(),
     };
     let found = found.and_then(|pieces| {

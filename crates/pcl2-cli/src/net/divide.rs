@@ -6,6 +6,7 @@ use crate::outcome::Outcome;
 use clap::Args;
 use pcl2_net::pt::{Arc, PtNet, Transition};
 use pcl2_net::structure::divide::{Division, SubNet, divide as divided};
+use pcl2_net::structure::names::size;
 use pcl2_net::structure::part::ArcKind;
 use std::fmt::Write;
 
@@ -53,8 +54,7 @@ fn text(net: &PtNet, division: &Division) -> String {
 }
 
 fn heading(text: &mut String, name: &str, net: &PtNet) {
-    let (places, transitions) = (net.places.len(), net.transitions.len());
-    let _ = writeln!(text, "{name}: {places} places, {transitions} transitions");
+    let _ = writeln!(text, "{name}: {}", size(net.places.len(), net.transitions.len()));
     let names: Vec<&str> = net.places.iter().map(|place| place.name.as_str()).collect();
     let _ = writeln!(text, "  places {}", names.join(" "));
 }

@@ -9,6 +9,7 @@ use pcl2_net::flat::{Flat, FlatPart};
 use pcl2_net::pt::{PlaceId, PtNet, TransitionId};
 use pcl2_net::structure::matrix::{Matrix, MatrixKind};
 use pcl2_net::structure::modules::modules;
+use pcl2_net::structure::names::size;
 use std::collections::BTreeSet;
 
 /// `pcl2 net matrix`
@@ -119,8 +120,8 @@ fn sections(net: &PtNet, parts: &[FlatPart]) -> Vec<Section> {
 
 fn write(net: &PtNet, section: &Section, args: &MatrixArgs, text: &mut Vec<u8>) -> std::io::Result<()> {
     if !args.csv {
-        let (places, transitions) = (section.places.len(), section.transitions.len());
-        let heading = format!("{} {}, {places} places, {transitions} transitions", section.what, section.name);
+        let size = size(section.places.len(), section.transitions.len());
+        let heading = format!("{} {}, {size}", section.what, section.name);
         text.extend(format!("{}{heading}\n", if text.is_empty() { "" } else { "\n" }).bytes());
     }
     for kind in MatrixKind::ALL {

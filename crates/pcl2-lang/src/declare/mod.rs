@@ -41,6 +41,10 @@ pub fn read(
     let mut context = Context::new(source, file, symbols, diagnostics);
     let mut lines = Lines::declarations(source, file);
     let mut declared = Declared::default();
+    if !context.is_text(source) {
+        declared.spoiled.push(stem.to_owned());
+        return declared;
+    }
     let mut current: Option<Decl> = None;
     let mut sound = mistakes(&mut context);
     while let Some(broken) = lines.next_line(context.diagnostics()) {

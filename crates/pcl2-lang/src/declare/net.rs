@@ -1,6 +1,6 @@
 //! `.net` files as written: a head in the notation of declarations, and the lines of the net.
 
-use super::raw::{self, Raw};
+use super::raw::{self, Clause, Raw};
 use super::{comment_above, complain, head, mistakes};
 use crate::ast::Name;
 use crate::ast::net::NetLine;
@@ -59,7 +59,10 @@ pub fn read(
 ) -> Option<NetFile> {
     let source = sources.file(file);
     let mut context = Context::new(source, file, symbols, diagnostics);
-    let mut lines = Lines::declarations(source, file);
+    if !context.is_text(source) {
+        return None;
+    }
+    let mut lines = Lines::net(source, file);
     let before = mistakes(&mut context);
     let Some(broken) = lines.next_line(context.diagnostics()) else {
         let start = context.span(0, 0);
@@ -69,19 +72,25 @@ pub fn read(
     let start = lines.tokens.first().map_or(0, |lexeme| lexeme.start);
     let first = context.span(start, lines.position());
     let mut names = HeadNames::default();
-    let decl = match (broken, parse_declaration_line(&mut context, &lines)) {
-        (false, Some(Raw::Head(outputs, call))) => {
+    let line = if broken { None } else { parse_declaration_line(&mut context, &lines) };
+    let decl = match line {
+        Some(Raw::Head(outputs, mut call)) => {
+            without_constants(&mut context, &mut call);
             let mut decl = head(&mut context, &outputs, &call);
             names = HeadNames::new(&outputs, &call);
             decl.doc = comment_above(&source.text, start as usize);
             (decl.stem, decl.user) = (stem.to_owned(), true);
             Some(decl)
         }
-        (false, Some(Raw::Clause(_))) => {
+        Some(Raw::Clause(Clause::End)) => {
+            no_head(&mut context, first, "END");
+            return None;
+        }
+        Some(Raw::Clause(_)) => {
             no_head(&mut context, first, "another line");
             None
         }
-        (_, _) => None,
+        None => None,
     };
     lines.set_words(Words::Net);
     let parsed = parse_net_lines(&mut context, &mut lines);
@@ -93,6 +102,20 @@ pub fn read(
     }
     let sound = mistakes(&mut context) == before;
     Some(NetFile { decl, head: names, lines: parsed, sound })
+}
+
+/// A name alone is a constant of a block, which nets do not have: its type was forgotten.
+fn without_constants(context: &mut Context<'_>, call: &mut raw::Call) {
+    call.items.retain(|item| {
+        let raw::Item::Constant(name, _) = item else {
+            return true;
+        };
+        let text = context.symbol_text(name.symbol).to_owned();
+        let message = format!("expected a type before `{text}`, found none");
+        let help = format!("write `int {text}` or `real {text}`; a size in a net is a number: `ivec[5] done`");
+        context.diagnostics().push(Diagnostic::new(codes::BAD_DECLARATION, name.span, message).help(help));
+        false
+    });
 }
 
 fn no_head(context: &mut Context<'_>, span: Span, found: &str) {

@@ -4,7 +4,7 @@
 use crate::codes;
 use crate::diagnostic::{self, Diagnostic};
 use crate::lexer::{
-    DECLARATION_WORDS, Key, Lexeme, Lexer, NET_WORDS, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, token_of,
+    DECLARATION_WORDS, Key, Lexeme, Lexer, NET_WORDS, SECTION_WORDS, Token, ascii_of, ascii_of_bytes, sign_of, token_of,
 };
 use crate::source::{FileId, NOT_TEXT, SourceFile, Span};
 
@@ -15,6 +15,8 @@ pub(crate) enum Words {
     Program,
     /// Declarations.
     Declarations,
+    /// The head of a net, a declaration that lines of a net follow.
+    Head,
     /// A net below its head.
     Net,
 }
@@ -23,8 +25,16 @@ impl Words {
     fn table(self) -> &'static [(&'static str, Key)] {
         match self {
             Words::Program => &SECTION_WORDS,
-            Words::Declarations => &DECLARATION_WORDS,
+            Words::Declarations | Words::Head => &DECLARATION_WORDS,
             Words::Net => &NET_WORDS,
+        }
+    }
+
+    /// Whether statements come, and no declarations.
+    fn are_statements(self) -> bool {
+        match self {
+            Words::Program | Words::Net => true,
+            Words::Declarations | Words::Head => false,
         }
     }
 }
@@ -48,6 +58,10 @@ impl<'a> Lines<'a> {
 
     pub(crate) fn declarations(source: &'a SourceFile, file: FileId) -> Lines<'a> {
         Lines::new(source, file, Words::Declarations)
+    }
+
+    pub(crate) fn net(source: &'a SourceFile, file: FileId) -> Lines<'a> {
+        Lines::new(source, file, Words::Head)
     }
 
     /// Switches to other words, for a composite's body or a net below its head.
@@ -74,7 +88,11 @@ impl<'a> Lines<'a> {
         let mut open_text = false;
         let mut bad = Bad::default();
         let (mut equals, mut colon) = (None, false);
+        let mut not_equal = None;
         while let Some(lexeme) = self.pending.take().or_else(|| self.lexer.next()) {
+            if lexeme.token == Token::Newline {
+                not_equal = not_equal.or_else(|| self.not_equal());
+            }
             match lexeme.token {
                 Token::Newline if open.is_empty() && (self.tokens.is_empty() || self.goes_on()) => continue,
                 Token::Newline if open.is_empty() => break,
@@ -111,30 +129,29 @@ impl<'a> Lines<'a> {
         if self.tokens.is_empty() {
             return None;
         }
-        let statements = self.words != Words::Declarations;
+        let statements = self.words.are_statements();
+        let mut holds_expression = self.words == Words::Net || (statements && !open.is_empty());
         if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, statements) {
             equals.token = Token::Becomes;
-            self.report_not_equal(diagnostics);
+            holds_expression = true;
         }
-        // A string without its end has swallowed the parenthesis.
-        if let (Some(first), false) = (open.first(), open_text) {
+        let not_equal = not_equal.or_else(|| self.not_equal()).filter(|_| holds_expression);
+        diagnostics.extend(not_equal.map(comment_for_not_equal));
+        // A string without its end, or such a comment, has swallowed the parenthesis.
+        if let (Some(first), false, None) = (open.first(), open_text, not_equal) {
             self.report_unclosed(*first, diagnostics);
         }
         Some(bad.unknown || open_text || !open.is_empty())
     }
 
-    /// `a != b` is `a` and a comment; whoever writes it behind an expression means another thing.
-    fn report_not_equal(&self, diagnostics: &mut Vec<Diagnostic>) {
-        let end = self.position();
-        let behind = self.source.text.get(end as usize..).unwrap_or_default();
-        let blanks = behind.len() - behind.trim_start_matches([' ', '\t']).len();
-        if behind[blanks..].starts_with("!=") {
-            let start = end + blanks as u32;
-            let span = Span { file: self.file, start, end: start + 2 };
-            let message = "expected `<>` for not equal, found `!=`, and `!` begins a comment";
-            let report = Diagnostic::new(codes::NOT_EQUAL, span, message);
-            diagnostics.push(report.help("write `<>`; or put a blank behind the `!` of a comment"));
-        }
+    /// `a != b` is `a` and a comment; whoever writes it behind an operand means another thing.
+    fn not_equal(&self) -> Option<Span> {
+        let last = self.tokens.last().filter(|last| ends_operand(last.token))?;
+        let behind = self.source.text.get(last.end as usize..)?;
+        let comment = behind.trim_start_matches([' ', '\t']);
+        let start = last.end + (behind.len() - comment.len()) as u32;
+        let meant = comment.starts_with("!=") && !comment.starts_with("!==");
+        meant.then_some(Span { file: self.file, start, end: start + 2 })
     }
 
     /// The tokens as lalrpop wants them.
@@ -149,13 +166,20 @@ impl<'a> Lines<'a> {
     /// Whether a declaration goes on behind the end of a line: a list has a comma there.
     fn goes_on(&self) -> bool {
         let comma = self.tokens.last().is_some_and(|last| last.token == Token::Comma);
-        comma && self.words == Words::Declarations && !self.starts_clause()
+        comma && !self.words.are_statements() && !self.starts_clause()
     }
 
     /// Whether a clause word comes next.
     fn starts_clause(&self) -> bool {
         let next = self.lexer.clone().map(|lexeme| lexeme.token).find(|token| *token != Token::Newline);
         matches!(next, Some(Token::Key(key)) if key.begins_line())
+    }
+
+    /// Whether the first line of a net below its head comes next.
+    fn starts_net(&self) -> bool {
+        let next = self.lexer.clone().next().filter(|_| self.words == Words::Head);
+        let text = next.and_then(|next| self.source.text.get(next.start as usize..next.end as usize));
+        NET_WORDS.iter().any(|(word, key)| key.begins_line() && text == Some(*word))
     }
 
     fn push_replacement(&mut self, token: Option<Token>, lexeme: Lexeme, open: &mut Vec<Lexeme>) {
@@ -181,6 +205,9 @@ impl<'a> Lines<'a> {
         if let Some(Token::Key(key)) = ahead.peek() {
             return key.begins_line();
         }
+        if self.starts_net() {
+            return true;
+        }
         let numbered = ahead.next_if_eq(&Token::Int).is_some();
         while ahead.next_if(|token| matches!(token, Token::Name | Token::Underscore)).is_some() {
             if ahead.next_if_eq(&Token::Comma).is_none() {
@@ -192,15 +219,26 @@ impl<'a> Lines<'a> {
     }
 
     fn report_unclosed(&self, open: Lexeme, diagnostics: &mut Vec<Diagnostic>) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::UNCLOSED,
-                self.span(open),
-                "expected `)`, found the next statement or the end of the file",
-            )
-            .help("close this parenthesis"),
-        );
+        let message = "expected `)`, found the next statement or the end of the file";
+        let help = match self.comment_closes() {
+            true => "close this parenthesis; `!` begins a comment, negation is `NOT`",
+            false => "close this parenthesis",
+        };
+        diagnostics.push(Diagnostic::new(codes::UNCLOSED, self.span(open), message).help(help));
     }
+
+    /// Whether a comment behind the line looks like a negated operand and its parenthesis.
+    fn comment_closes(&self) -> bool {
+        let behind = self.source.text.get(self.position() as usize..).unwrap_or_default();
+        let line = behind.split(['\r', '\n']).next().unwrap_or_default();
+        let comment = line.trim_start_matches([' ', '\t']).strip_prefix('!');
+        comment.is_some_and(|comment| negates(comment) && comment.contains(')'))
+    }
+}
+
+/// Whether a comment, its `!` left off, begins as an operand does.
+pub(super) fn negates(comment: &str) -> bool {
+    comment.starts_with(|first: char| first.is_ascii_alphanumeric() || first == '(')
 }
 
 /// Whether what stands behind `K =` is the value of a named argument, and neither a call nor an expression.
@@ -225,6 +263,16 @@ pub(super) fn is_sign(token: &Token) -> bool {
 
 pub(super) fn is_comparison(token: Token) -> bool {
     matches!(token, Token::Less | Token::LessEqual | Token::Greater | Token::GreaterEqual | Token::Same | Token::Differ)
+}
+
+/// Whether an operand may end with a token.
+fn ends_operand(token: Token) -> bool {
+    matches!(token, Token::Name | Token::Int | Token::Real | Token::RightParen | Token::RightBracket)
+}
+
+fn comment_for_not_equal(span: Span) -> Diagnostic {
+    let message = "expected `<>` for not equal, found `!=`, and `!` begins a comment";
+    Diagnostic::new(codes::NOT_EQUAL, span, message).help("write `<>`; or put a blank behind the `!` of a comment")
 }
 
 fn unclosed_text(span: Span) -> Diagnostic {
@@ -253,6 +301,10 @@ impl Bad {
         self.last_end = Some(lexeme.end);
         let text = &lines.source.text[lexeme.start as usize..];
         let character = text.chars().next().unwrap_or(NOT_TEXT);
+        if let Some((sign, token)) = sign_of(character) {
+            diagnostics.push(other_sign(character, sign, lines.span(lexeme)));
+            return Some(token);
+        }
         let twin = if character == NOT_TEXT { self.bytes_twin(lexeme, lines.source) } else { ascii_of(character) };
         let token = twin.and_then(token_of);
         self.unknown |= token.is_none() && twin != Some(' ');
@@ -260,7 +312,17 @@ impl Bad {
             let end = if character == NOT_TEXT && twin.is_some() { self.skip } else { lexeme.end };
             diagnostics.push(bad_character(character, twin, lines.span(Lexeme { end, ..lexeme }), lines.source));
         }
-        token
+        self.arrow(token, lexeme, text)
+    }
+
+    /// The token, an arrow where `>` follows a minus or a dash.
+    fn arrow(&mut self, token: Option<Token>, lexeme: Lexeme, text: &str) -> Option<Token> {
+        let length = (lexeme.end - lexeme.start) as usize;
+        if token != Some(Token::Minus) || !text.get(length..).is_some_and(|behind| behind.starts_with('>')) {
+            return token;
+        }
+        self.skip = lexeme.end + 1;
+        Some(Token::Arrow)
     }
 
     fn bytes_twin(&mut self, lexeme: Lexeme, source: &SourceFile) -> Option<char> {
@@ -287,6 +349,7 @@ fn bad_character(character: char, twin: Option<char>, span: Span, source: &Sourc
             Diagnostic::new(codes::BAD_CHARACTER, span, format!("expected an ASCII blank, found another one ({found})"))
                 .help("type an ordinary blank; any text is free in comments, after `!`")
         }
+        Some(twin) if !is_full_width(character) => other_sign(character, &twin.to_string(), span),
         Some(twin) => Diagnostic::new(
             codes::BAD_CHARACTER,
             span,
@@ -300,4 +363,15 @@ fn bad_character(character: char, twin: Option<char>, span: Span, source: &Sourc
         )
         .help("outside comments only ASCII letters, digits and punctuation have a meaning"),
     }
+}
+
+/// Whether a twin of an ASCII character differs from it in its width alone.
+fn is_full_width(character: char) -> bool {
+    matches!(character, NOT_TEXT | '\u{3001}' | '\u{3002}' | '\u{ff01}'..='\u{ff64}')
+}
+
+/// A sign that an editor, or a font, puts in the place of an ASCII one.
+fn other_sign(character: char, sign: &str, span: Span) -> Diagnostic {
+    let message = format!("expected ASCII `{sign}`, found another sign (`{character}`, U+{:04X})", character as u32);
+    Diagnostic::new(codes::BAD_CHARACTER, span, message).help(format!("type `{sign}`"))
 }

@@ -40,10 +40,10 @@ mod lines;
 mod nets;
 mod wording;
 
-use lines::is_comparison;
 pub(crate) use lines::{Lines, Words};
+use lines::{is_comparison, negates};
 pub(crate) use nets::parse_net_lines;
-use wording::{HEAD, form_help, list};
+use wording::{HEAD, declares, form_help, list};
 
 /// The deepest nesting of an expression.
 const MAX_DEPTH: u32 = 100;
@@ -88,11 +88,7 @@ pub fn parse(sources: &Sources, file: FileId, symbols: &mut Symbols, diagnostics
     let source = sources.file(file);
     let mut context = Context::new(source, file, symbols, diagnostics);
     let mut tree = Tree::default();
-    if let Some(found) = no_text(source) {
-        let message = format!("expected ASCII or UTF-8 text, found {found}");
-        context.diagnostics.push(
-            Diagnostic::new(codes::UNREADABLE, context.span(0, 0), message).help("save the file as UTF-8 or ASCII"),
-        );
+    if !context.is_text(source) {
         return tree;
     }
     let parser = cfg::CfgLinesParser::new();
@@ -345,6 +341,17 @@ impl<'a> Context<'a> {
         self.terms.push(Term::Apply(name, count));
     }
 
+    /// Whether the file is text; if not, that is reported.
+    pub(crate) fn is_text(&mut self, source: &SourceFile) -> bool {
+        let Some(found) = no_text(source) else {
+            return true;
+        };
+        let message = format!("expected ASCII or UTF-8 text, found {found}");
+        let report = Diagnostic::new(codes::UNREADABLE, self.span(0, 0), message);
+        self.diagnostics.push(report.help("save the file as UTF-8 or ASCII"));
+        false
+    }
+
     fn missing_end(&mut self) {
         let length = self.text.len() as u32;
         let end = self.span(length, length);
@@ -484,13 +491,21 @@ impl<'a> Context<'a> {
             self.diagnostics.push(report);
             return;
         }
-        let message = format!("expected {}, found {found}", list(&expected));
-        let compares = tokens.iter().any(|lexeme| lexeme.start == span.start && is_comparison(lexeme.token));
         let allowed = |sign: &str| expected.iter().any(|token| token.trim_matches('"') == sign);
-        let help = if compares && (allowed("+") || allowed("==")) {
+        let token = tokens.iter().find(|lexeme| lexeme.start == span.start).map(|lexeme| lexeme.token);
+        let reserved = matches!(token, Some(Token::Key(_))) && allowed("NAME");
+        let found = if reserved { format!("the reserved word {found}") } else { found };
+        let mut wanted = list(&expected);
+        if token == Some(Token::Real) && !allowed("REAL") {
+            wanted = wanted.replace("a number", "an integer");
+        }
+        let message = format!("expected {wanted}, found {found}");
+        let help = if token.is_some_and(is_comparison) && (allowed("+") || allowed("==")) {
             "comparisons do not follow one another: put one into parentheses"
         } else if found == "`=`" && allowed("==") {
             "a comparison for equality is `==`"
+        } else if allowed("NAME") && allowed("(") && self.comment_follows(tokens, span) {
+            "`!` begins a comment; negation is `NOT`"
         } else if allowed("vec") {
             HEAD
         } else {
@@ -499,15 +514,23 @@ impl<'a> Context<'a> {
         self.diagnostics.push(Diagnostic::new(codes::UNEXPECTED, span, message).help(help));
     }
 
-    /// A reserved word, or a name that starts with `_`, where a name is due.
+    /// Whether the line is at its end at a place, and a comment begins there that looks like a negated operand.
+    fn comment_follows(&self, tokens: &[Lexeme], place: Span) -> bool {
+        let end = tokens.last().map_or(0, |last| last.end);
+        let behind = self.text.get(end as usize..).unwrap_or_default();
+        let comment = behind.trim_start_matches([' ', '\t']).strip_prefix('!');
+        place.end == end && comment.is_some_and(negates)
+    }
+
+    /// A reserved word where a new name is due, or a name that starts with `_`.
     fn bad_name(&self, span: Span, tokens: &[Lexeme], expected: &[String]) -> Option<Diagnostic> {
-        let lexeme = tokens.iter().find(|lexeme| lexeme.start == span.start)?;
+        let at = tokens.iter().position(|lexeme| lexeme.start == span.start)?;
         if !expected.iter().any(|token| token == "\"NAME\"") {
             return None;
         }
         let text = self.text(span);
-        match lexeme.token {
-            Token::Key(_) => {
+        match tokens[at].token {
+            Token::Key(key) if is_new(key, &tokens[..at], expected) => {
                 let message = format!("expected a name, found the reserved word `{text}`");
                 Some(Diagnostic::new(codes::BAD_NAME, span, message).help("take another name"))
             }
@@ -545,6 +568,22 @@ impl<'a> Context<'a> {
                 Token::Equals | Token::Becomes => return,
                 _ => {}
             }
+        }
+    }
+}
+
+/// Whether a word stands for a new name behind these tokens, and nothing is missing before it.
+fn is_new(word: Key, before: &[Lexeme], expected: &[String]) -> bool {
+    let latest = before.iter().rev().find_map(|lexeme| match lexeme.token {
+        Token::Key(key) => Some(key),
+        _ => None,
+    });
+    match latest {
+        Some(key) => declares(key) && expected.iter().all(|token| matches!(token.trim_matches('"'), "NAME" | "_")),
+        // An operator among the inputs of a block is meant as one.
+        None => {
+            let outputs = !before.iter().any(|lexeme| matches!(lexeme.token, Token::Equals | Token::Becomes));
+            outputs || !matches!(word, Key::And | Key::Or | Key::Not)
         }
     }
 }

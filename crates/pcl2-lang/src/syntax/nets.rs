@@ -1,5 +1,6 @@
 //! The lines of a net below its head. The lines between FOR and NEXT are parsed once for each value of the counter.
 
+use super::wording::{LINES, inside_help};
 use super::{Context, Lines, cfg};
 use crate::ast::net::NetLine;
 use crate::ast::{Name, Operand, Statement};
@@ -8,6 +9,7 @@ use crate::diagnostic::{self, Diagnostic};
 use crate::lexer::{Key, Lexeme, NET_WORDS, Token};
 use crate::source::Span;
 use crate::suggest;
+use lalrpop_util::ParseError;
 
 /// The most lines of one net, those of FOR counted as often as they run.
 const MAX_LINES: usize = 1 << 17;
@@ -48,17 +50,17 @@ fn block(context: &mut Context<'_>, rows: &[Vec<Lexeme>], parsed: &mut Vec<NetLi
         next += 1;
         match parse(context, row) {
             NetLine::For(name, from, to) => {
-                let length = body_length(&rows[next..]);
-                repeat(context, &rows[next..next + length.unwrap_or(0)], (name, from, to), parsed);
-                match length {
-                    Some(length) => next += length + 1,
-                    None => context.complain(
-                        codes::UNCLOSED,
-                        name.span,
-                        "expected NEXT after FOR, found the end of the net",
-                        "close the repeated lines with NEXT",
-                    ),
-                }
+                let Some(length) = body_length(&rows[next..]) else {
+                    context.no_next(name.span);
+                    parsed.push(NetLine::Broken);
+                    return;
+                };
+                repeat(context, &rows[next..next + length], (name, from, to), parsed);
+                next += length + 1;
+            }
+            NetLine::Broken if is_first(row, Key::For) => {
+                parsed.push(NetLine::Broken);
+                next = body_length(&rows[next..]).map_or(rows.len(), |length| next + length + 1);
             }
             NetLine::Next(span) => {
                 context.complain(codes::SECTION, span, "expected a FOR before NEXT, found none", "delete this NEXT");
@@ -103,6 +105,14 @@ fn repeat(
         context.complain(codes::TOO_DEEP, name.span, message, "write a part of the lines out");
         return;
     }
+    if let Some((outer, _)) = context.counters.iter().find(|(outer, _)| outer.symbol == name.symbol) {
+        let text = context.symbols.text(name.symbol);
+        let message = format!("expected a counter of its own for each FOR, found `{text}` a second time");
+        let report = Diagnostic::new(codes::NET_NAME_TAKEN, name.span, message).help("take another name");
+        let report = report.label(outer.span, "it counts these lines already");
+        context.diagnostics.push(report);
+        return;
+    }
     if from.0 > to.0 {
         let message = format!("expected at least {} behind TO, found {}", from.0, to.0);
         context.complain(codes::OUT_OF_RANGE, to.1, message, "count upwards");
@@ -130,7 +140,7 @@ fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> NetLine {
     let Some(first) = row.first() else {
         return NetLine::Broken;
     };
-    if !matches!(first.token, Token::Key(_)) {
+    if !matches!(first.token, Token::Key(key) if key.begins_line()) {
         context.no_net_line(*first);
         return NetLine::Broken;
     }
@@ -138,10 +148,30 @@ fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> NetLine {
     match cfg::NetLineParser::new().parse(context, tokens) {
         Ok(line) => line,
         Err(error) => {
-            context.report(error, row);
+            match second_statement(row, &error) {
+                Some(second) => context.one_statement(second),
+                None => context.report(error, row),
+            }
             NetLine::Broken
         }
     }
+}
+
+/// Where a line goes on with another statement behind the one of its DO.
+fn second_statement(row: &[Lexeme], error: &ParseError<u32, Token, ()>) -> Option<Lexeme> {
+    let is_do = |lexeme: &&Lexeme| matches!(lexeme.token, Token::Key(Key::Do | Key::After));
+    let first = row.iter().find(is_do)?;
+    if let Some(second) = row.iter().filter(is_do).nth(1) {
+        return Some(*second);
+    }
+    let ParseError::UnrecognizedToken { token: (start, Token::Comma, _), .. } = error else {
+        return None;
+    };
+    let before = row.iter().filter(|lexeme| lexeme.start > first.start && lexeme.start < *start);
+    let count = |wanted: &[Token]| before.clone().filter(|lexeme| wanted.contains(&lexeme.token)).count();
+    let whole = count(&[Token::LeftParen]) == count(&[Token::RightParen]);
+    let comma = row.iter().find(|lexeme| lexeme.start == *start);
+    comma.copied().filter(|_| whole && count(&[Token::Equals, Token::Becomes]) > 0)
 }
 
 impl Context<'_> {
@@ -149,14 +179,31 @@ impl Context<'_> {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
     }
 
+    fn no_next(&mut self, place: Span) {
+        let message = "expected NEXT after FOR, found the end of the net";
+        self.complain(codes::UNCLOSED, place, message, "close the repeated lines with NEXT");
+    }
+
     /// A line of a net begins with a word of its own.
     fn no_net_line(&mut self, first: Lexeme) {
         let found = self.describe(first.token, first.start, first.end);
-        let words = NET_WORDS.iter().filter(|(_, key)| key.begins_line()).map(|(word, _)| *word);
-        let close = suggest::help(found.trim_matches('`'), words);
-        let help = close.unwrap_or_else(|| "such as STATE, TIME, GATE, IF or DO: `pcl2 explain P0002`".to_owned());
+        let help = match first.token {
+            Token::Key(key) => inside_help(key).to_owned(),
+            _ => {
+                let words = NET_WORDS.iter().filter(|(_, key)| key.begins_line()).map(|(word, _)| *word);
+                suggest::help(found.trim_matches('`'), words).unwrap_or_else(|| LINES.to_owned())
+            }
+        };
         let message = format!("expected a word that begins a line of a net, found {found}");
         self.complain(codes::UNEXPECTED, self.span(first.start, first.end), message, &help);
+    }
+
+    fn one_statement(&mut self, second: Lexeme) {
+        self.forget();
+        let found = self.describe(second.token, second.start, second.end);
+        let message = format!("expected the end of the line behind one statement, found {found}");
+        let help = "a DO has one statement: put the next one on a line of its own below, `DO output = value`";
+        self.complain(codes::UNEXPECTED, self.span(second.start, second.end), message, help);
     }
 
     /// There are too many lines, or turns of FOR: no more is read.
@@ -180,7 +227,13 @@ impl Context<'_> {
             self.complain(codes::UNEXPECTED, name.span, message, help);
             return (1, name.span);
         };
-        (i32::try_from(i64::from(*value) + more).unwrap_or(0), name.span)
+        let index = i64::from(*value) + more;
+        let fits = i32::try_from(index).unwrap_or_else(|_| {
+            let message = format!("expected an index of at most {}, found {index}", i32::MAX);
+            self.complain(codes::NUMBER_RANGE, name.span, message, "count from a smaller number");
+            0
+        });
+        (fits, name.span)
     }
 
     /// A value that is asked for.

@@ -62,7 +62,33 @@ fn key_help(key: Key) -> &'static str {
 }
 
 pub(super) const HEAD: &str = "a head is `type output, .. = name ( type input, .. : type parameter = value, .. )`";
+pub(super) const LINES: &str = "such as STATE, TIME, GATE, IF or DO: `pcl2 explain P0002`";
 const INSIDE: &str = "no line begins with this word";
+
+/// Where words belong that begin no line of a net.
+const PLACES: [(&[Key], &str); 4] = [
+    (&[Key::Read, Key::Inhibit, Key::Permit, Key::Priority], "it stands in the line of a gate, behind the boxes"),
+    (
+        &[Key::Of, Key::Size, Key::Order, Key::Marked, Key::Drives, Key::Until, Key::Within, Key::When],
+        "it stands in the line of a box, behind the name",
+    ),
+    (&[Key::And, Key::Or, Key::Not], "a condition goes on in the next line only inside parentheses"),
+    (&[Key::Int, Key::Real], "a net has one head, in its first line; a word of the net's own is `LOCAL int name`"),
+];
+
+pub(super) fn inside_help(key: Key) -> &'static str {
+    PLACES.iter().find(|(keys, _)| keys.contains(&key)).map_or(LINES, |(_, help)| help)
+}
+
+/// Whether names behind the word are new ones.
+pub(super) fn declares(key: Key) -> bool {
+    let types =
+        matches!(key, Key::Int | Key::Real | Key::Ivec | Key::Vec | Key::Imat | Key::Mat | Key::Text | Key::Time);
+    let steps = matches!(key, Key::Operation | Key::Signal | Key::Process | Key::Generate);
+    let boxes = matches!(key, Key::State | Key::Capacity | Key::Timer | Key::Count | Key::Entry | Key::Exit);
+    let parts = matches!(key, Key::Macro | Key::Module | Key::Gate | Key::Class | Key::For | Key::Faults);
+    types || steps || boxes || parts
+}
 
 /// Whether what stands between `=` and `:` looks like an expression.
 fn calls_in_expression(tokens: &[Lexeme]) -> bool {
@@ -91,6 +117,7 @@ pub(super) fn list(expected: &[String]) -> String {
     }
     match words.as_slice() {
         [] => "the end of the line".to_owned(),
+        ["a clause word"] if expected.len() == 1 => format!("`{}`", expected[0].trim_matches('"')),
         [one] => (*one).to_owned(),
         [most @ .., last] => format!("{} or {last}", most.join(", ")),
     }

@@ -70,7 +70,11 @@ impl Flattener<'_> {
     fn rules(&self, scope: usize, gate: &Gate, text: &mut String) -> Result<(), String> {
         let plain = is_plain(&self.scopes[scope], gate);
         for (i, rule) in gate.rules.iter().enumerate() {
-            let before = if gate.rules.len() == 1 { ' ' } else { '\n' };
+            let before = match i {
+                0 if gate.rules.len() == 1 => " ",
+                0 => "\n",
+                _ => "",
+            };
             match rule.condition {
                 Some(condition) => {
                     let _ = write!(text, "{before}IF {}", self.condition(scope, condition)?);

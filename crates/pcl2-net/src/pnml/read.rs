@@ -227,7 +227,8 @@ impl<'a, 'input> Reader<'a, 'input> {
 /// Refuses arcs that mean something else than an ordinary arc.
 fn plain(arc: Node<'_, '_>) -> Result<(), PnmlError> {
     let kind = arc.children().find(|child| child.tag_name().name() == "type");
-    let Some(value) = kind.and_then(|node| node.attribute("value").or(node.text())).map(str::trim) else {
+    let element = kind.and_then(|node| node.attribute("value").or(node.text()));
+    let Some(value) = element.or(arc.attribute("type")).map(str::trim) else {
         return Ok(());
     };
     if ["normal", "ptArc", "presetPTArc", "postsetPTArc"].contains(&value) {

@@ -12,6 +12,7 @@ mod reference;
 pub use document::{Cell, Content, Document, Section, Style, Table};
 
 use crate::flat::Flat;
+use crate::structure::names::{counted, size};
 use pcl2_lang::manual;
 use pcl2_lang::net::written::{Written, WrittenNet};
 use pcl2_lang::program::Binding;
@@ -62,10 +63,10 @@ fn opening(net: &WrittenNet<'_>) -> Vec<Content> {
 fn head(input: &Input<'_>, net: &WrittenNet<'_>) -> Section {
     let mut content = opening(net);
     let (own, flat) = (net.net, &input.flat.net);
-    let mut words = format!("{} boxes, {} gates", own.boxes.len(), own.gates.len());
+    let mut words = counted(own.boxes.len(), "box", "boxes");
+    words.push_str(&format!(", {}", counted(own.gates.len(), "gate", "gates")));
     if !own.parts.is_empty() {
-        let (places, transitions) = (flat.places.len(), flat.transitions.len());
-        words.push_str(&format!("; with the nets inside it {places} places, {transitions} transitions"));
+        words.push_str(&format!("; with the nets inside it {}", size(flat.places.len(), flat.transitions.len())));
     }
     content.push(Content::Words(format!("{words}.")));
     Section::new(1, &net.decl.name, content)

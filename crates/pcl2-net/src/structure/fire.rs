@@ -46,10 +46,10 @@ pub struct Blocked {
 }
 
 impl Blocked {
-    /// A sentence in the names of the net.
+    /// A sentence in the names of the net. As in a table, scans count from 1: 0 is the start.
     pub fn message(&self, net: &PtNet) -> String {
         let name = names::transition(net, self.transition);
-        format!("scan {}: `{name}` is not enabled: {}", self.scan, self.reason.in_names(net))
+        format!("scan {}: `{name}` is not enabled: {}", self.scan + 1, self.reason.in_names(net))
     }
 }
 
@@ -88,7 +88,7 @@ pub fn fire(net: &PtNet, start: &[i128], scans: &[Scan], rule: Rule, on_blocked:
         let mut next = marking.clone();
         let reasons = match rule {
             Rule::Step => together(net, &marking, scan),
-            Rule::Interleaving => in_turn(net, &marking, scan).map_err(|error| format!("scan {k}: {error}"))?,
+            Rule::Interleaving => in_turn(net, &marking, scan).map_err(|error| format!("scan {}: {error}", k + 1))?,
         };
         let blocked = reasons.into_iter().map(|(transition, reason)| Blocked { scan: k, transition, reason });
         run.blocked.extend(blocked);
@@ -96,7 +96,7 @@ pub fn fire(net: &PtNet, start: &[i128], scans: &[Scan], rule: Rule, on_blocked:
             return Ok(run);
         }
         for (id, count) in scan {
-            change(net, &mut next, *id, *count).map_err(|error| format!("scan {k}: {error}"))?;
+            change(net, &mut next, *id, *count).map_err(|error| format!("scan {}: {error}", k + 1))?;
         }
         run.markings.push(next.clone());
         marking = next;

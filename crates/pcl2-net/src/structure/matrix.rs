@@ -11,6 +11,8 @@ use std::io::{self, Write};
 /// The widest column of a text, in characters; a longer name stands out.
 pub const WIDEST: usize = 200;
 
+const ONE_MATRIX: &str = "a file has one matrix: `net matrix --csv` writes one with --of and --kind";
+
 /// Which matrix of a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MatrixKind {
@@ -168,26 +170,29 @@ impl Matrix {
     pub fn read_csv(bytes: &[u8]) -> Result<Matrix, String> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let mut reader = csv::ReaderBuilder::new().from_reader(bytes);
-        let header = reader.headers().map_err(|error| text_of(&error))?.clone();
+        let header = reader.headers().map_err(|error| text_of(&error, bytes))?.clone();
         let label = header.get(0).ok_or("expected a line with the names of transitions, found nothing")?;
         if label.trim_start().starts_with('<') {
             return Err("expected a matrix as CSV, found XML; `net matrix --csv` writes the matrix of a net".to_owned());
         }
         let columns: Vec<String> = header.iter().skip(1).map(|name| name.trim().to_owned()).collect();
         if let Some(column) = repeated(&columns) {
-            return Err(format!("row 1, column {}: `{}` stands in an earlier column", column + 2, columns[column]));
+            return Err(format!("line 1, column {}: `{}` stands in an earlier column", column + 2, columns[column]));
         }
         let mut matrix = Matrix::zero(label.trim(), Vec::new(), columns);
         let mut seen = FxHashSet::default();
         for record in reader.records() {
-            let record = record.map_err(|error| text_of(&error))?;
-            let line = record.position().map_or(0, csv::Position::line);
+            let record = record.map_err(|error| text_of(&error, bytes))?;
+            let line = line_at(bytes, record.position());
             let name = record.get(0).unwrap_or("").trim().to_owned();
+            if !matrix.columns.is_empty() && record.iter().skip(1).map(str::trim).eq(&matrix.columns) {
+                return Err(format!("line {line}: expected a row of `{label}`, found a second matrix; {ONE_MATRIX}"));
+            }
             if !seen.insert(name.clone()) {
-                return Err(format!("row {line}, column 1: `{name}` stands in an earlier row"));
+                return Err(format!("line {line}, column 1: `{name}` stands in an earlier row"));
             }
             matrix.rows.push(name);
-            let entries = entries(&record, &matrix.columns).map_err(|message| format!("row {line}, {message}"))?;
+            let entries = entries(&record, &matrix.columns).map_err(|message| format!("line {line}, {message}"))?;
             matrix.entries.push(entries);
         }
         Ok(matrix)
@@ -212,15 +217,22 @@ fn repeated(names: &[String]) -> Option<usize> {
     names.iter().position(|name| !seen.insert(name))
 }
 
-fn text_of(error: &csv::Error) -> String {
-    let row = |pos: &Option<csv::Position>| pos.as_ref().map_or(0, csv::Position::line);
+fn text_of(error: &csv::Error, bytes: &[u8]) -> String {
+    let line = |pos: &Option<csv::Position>| line_at(bytes, pos.as_ref());
     match error.kind() {
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            format!("row {}: expected {expected_len} fields, found {len}", row(pos))
+            format!("line {}: expected {expected_len} fields, found {len}; {ONE_MATRIX}", line(pos))
         }
-        csv::ErrorKind::Utf8 { pos, .. } => format!("row {}: expected UTF-8 text, found other bytes", row(pos)),
+        csv::ErrorKind::Utf8 { pos, .. } => format!("line {}: expected UTF-8 text, found other bytes", line(pos)),
         _ => error.to_string(),
     }
+}
+
+/// The line of a record, blank ones before it counted.
+fn line_at(bytes: &[u8], position: Option<&csv::Position>) -> usize {
+    let start = position.map_or(0, |position| position.byte() as usize).min(bytes.len());
+    let blank = bytes[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
+    1 + bytes[..start + blank].iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// In characters: names of nets from other tools need not be ASCII, nor short.

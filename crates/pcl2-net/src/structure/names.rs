@@ -34,6 +34,17 @@ impl<'a> Names<'a> {
     }
 }
 
+/// A number of things: `1 place`, `2 places`.
+pub fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
+}
+
+/// How large a net or a part of one is.
+pub fn size(places: usize, transitions: usize) -> String {
+    let transitions = counted(transitions, "transition", "transitions");
+    format!("{}, {transitions}", counted(places, "place", "places"))
+}
+
 fn unknown(what: &str, name: &str, help: Option<String>) -> String {
     let help = help.map(|help| format!(" ({help})")).unwrap_or_default();
     format!("expected a {what} of the net, found `{name}`{help}")

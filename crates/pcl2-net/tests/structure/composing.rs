@@ -55,16 +55,18 @@ fn a_csv_is_read_as_it_was_written() {
 #[test]
 fn what_is_wrong_with_a_csv_is_told_with_its_place() {
     let read = |text: &str| Matrix::read_csv(text.as_bytes()).unwrap_err();
-    assert_eq!(read("B,t,u\na,1,x\n"), "row 2, column 3 (u): expected an integer below 2^64, found `x`");
+    assert_eq!(read("B,t,u\na,1,x\n"), "line 2, column 3 (u): expected an integer below 2^64, found `x`");
     assert_eq!(
         read("B,t\na,18446744073709551616\n"),
-        "row 2, column 2 (t): expected an integer below 2^64, found `18446744073709551616`"
+        "line 2, column 2 (t): expected an integer below 2^64, found `18446744073709551616`"
     );
-    assert_eq!(read("B,t,t\n"), "row 1, column 3: `t` stands in an earlier column");
-    assert_eq!(read("B,t\na,1\na,2\n"), "row 3, column 1: `a` stands in an earlier row");
-    assert_eq!(read("B,t\na,1,2\n"), "row 2: expected 2 fields, found 3");
+    assert_eq!(read("B,t,t\n"), "line 1, column 3: `t` stands in an earlier column");
+    assert_eq!(read("B,t\na,1\na,2\n"), "line 3, column 1: `a` stands in an earlier row");
+    let one = "a file has one matrix: `net matrix --csv` writes one with --of and --kind";
+    assert_eq!(read("B,t\n\na,1,2\n"), format!("line 3: expected 2 fields, found 3; {one}"));
+    assert_eq!(read("B,t\na,1\n\nB+,t\n"), format!("line 4: expected a row of `B`, found a second matrix; {one}"));
     assert_eq!(read(""), "expected a line with the names of transitions, found nothing");
-    assert_eq!(Matrix::read_csv(b"B,t\na,\xff\n").unwrap_err(), "row 2: expected UTF-8 text, found other bytes");
+    assert_eq!(Matrix::read_csv(b"B,t\na,\xff\n").unwrap_err(), "line 2: expected UTF-8 text, found other bytes");
 }
 
 #[test]

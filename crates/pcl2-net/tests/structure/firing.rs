@@ -43,7 +43,7 @@ fn equation_9_needs_t0_and_the_button() {
     assert_eq!(digits(&initial(&net)), "100000010");
     let run = fire(&net, &initial(&net), std::slice::from_ref(&scan), Rule::Step, OnBlocked::Note).unwrap();
     assert_eq!(digits(&run.markings[1]), "010000001");
-    let message = "scan 0: `t0` is not enabled: expected 1 token to read in `P1`, found 0";
+    let message = "scan 1: `t0` is not enabled: expected 1 token to read in `P1`, found 0";
     assert_eq!(messages(&net, &run), [message]);
     let refused = fire(&net, &initial(&net), &[scan], Rule::Step, OnBlocked::Refuse).unwrap();
     assert_eq!((refused.markings.len(), messages(&net, &refused)), (1, vec![message.to_owned()]));
@@ -75,7 +75,7 @@ fn equation_17_depends_on_the_order_one_after_the_other() {
     let fire = |text: &str| fire(&net, &start, &scans(&net, &[text]), Rule::Interleaving, OnBlocked::Refuse).unwrap();
     assert_eq!(digits(&fire("tD21 tz10").markings[1]), "011010001");
     let refused = fire("tz10 tD21");
-    let message = "scan 0: `tD21` is not enabled: expected 1 token to read in `Z11`, found 0";
+    let message = "scan 1: `tD21` is not enabled: expected 1 token to read in `Z11`, found 0";
     assert_eq!((refused.markings.len(), messages(&net, &refused)), (1, vec![message.to_owned()]));
 }
 
@@ -118,10 +118,10 @@ fn a_step_sees_neither_new_tokens_nor_new_room() {
         let run = fire(&net, &initial(&net), &scans(&net, &[text]), rule, OnBlocked::Refuse).unwrap();
         (run.markings.last().map(|marking| digits(marking)).unwrap(), messages(&net, &run))
     };
-    let message = "scan 0: `u` is not enabled: expected 1 token to take from `b`, found 0".to_owned();
+    let message = "scan 1: `u` is not enabled: expected 1 token to take from `b`, found 0".to_owned();
     assert_eq!(fire("t u", Rule::Step), ("100".to_owned(), vec![message]));
     assert_eq!(fire("t u", Rule::Interleaving), ("001".to_owned(), vec![]));
-    let message = "scan 0: `v` is not enabled: expected room for 1 token in `a`, found 0".to_owned();
+    let message = "scan 1: `v` is not enabled: expected room for 1 token in `a`, found 0".to_owned();
     assert_eq!(fire("t v", Rule::Step), ("100".to_owned(), vec![message]));
     assert_eq!(fire("t v", Rule::Interleaving), ("110".to_owned(), vec![]));
 }
@@ -139,7 +139,7 @@ fn weights_reads_inhibitors_and_gates_are_checked() {
     let blocked = |net: &PtNet, text: &str, rule| {
         messages(net, &fire(net, &initial(net), &scans(net, &[text]), rule, OnBlocked::Note).unwrap())
     };
-    let not = |name: &str, why: &str| format!("scan 0: `{name}` is not enabled: {why}");
+    let not = |name: &str, why: &str| format!("scan 1: `{name}` is not enabled: {why}");
     let (left, read) = ("expected 3 tokens to take from `a`, found 2", "expected 4 tokens to read in `b`, found 3");
     assert_eq!(blocked(&net, "take take", Rule::Interleaving), [not("take", left)]);
     assert_eq!(blocked(&net, "read", Rule::Step), [not("read", read)]);
@@ -175,7 +175,7 @@ fn wrong_firings_are_told() {
     assert_eq!(by_vector(&net, &[1, 0]), Err("expected a firing vector of 1 numbers, found 2".to_owned()));
     let scan = vec![(transition_id(&net, "start"), u64::MAX)];
     let run = fire(&net, &initial(&net), &[scan], Rule::Interleaving, OnBlocked::Note);
-    assert_eq!(run, Err("scan 0: `a` gets more tokens than can be counted".to_owned()));
+    assert_eq!(run, Err("scan 1: `a` gets more tokens than can be counted".to_owned()));
     let run = fire(&net, &[1, 2], &[], Rule::Step, OnBlocked::Note);
     assert_eq!(run, Err("expected a marking of 1 numbers, found 2".to_owned()));
     let step = maximal_step(&net, &[2], |_| true);
