@@ -118,12 +118,16 @@ impl Flow {
 
     /// The largest siphon within a set: a node that gets tokens from outside the set is no part of it.
     fn largest_siphon(&self, within: &FixedBitSet) -> FixedBitSet {
-        largest(within, &self.outputs, &self.readers, &self.writers)
+        self.shrinking_siphon(within).set
+    }
+
+    fn shrinking_siphon(&self, within: &FixedBitSet) -> Shrinking<'_> {
+        Shrinking::new(within, &self.outputs, &self.readers, &self.writers)
     }
 
     /// The largest trap within a set.
     fn largest_trap(&self, within: &FixedBitSet) -> FixedBitSet {
-        largest(within, &self.inputs, &self.writers, &self.readers)
+        Shrinking::new(within, &self.inputs, &self.writers, &self.readers).set
     }
 
     fn has_marked_trap(&self, within: &FixedBitSet) -> bool {
@@ -193,41 +197,71 @@ fn uncapped(net: &PtNet) -> PtNet {
     net
 }
 
-/// Removes from a set the outputs of transitions without an input in it, until none is left. Only what touches the set
-/// is looked at: most sets are small.
-fn largest(within: &FixedBitSet, outputs: &[Vec<u32>], readers: &[Vec<u32>], writers: &[Vec<u32>]) -> FixedBitSet {
-    let mut set = within.clone();
-    let mut fed = vec![0_u32; outputs.len()];
-    set.ones().flat_map(|node| &readers[node]).for_each(|reader| fed[*reader as usize] += 1);
-    let mut starved = VecDeque::new();
-    for writer in set.ones().flat_map(|node| &writers[node]) {
-        if fed[*writer as usize] == 0 {
-            // It has no input to lose: once is enough.
-            fed[*writer as usize] = u32::MAX;
-            starved.push_back(*writer);
-        }
-    }
-    while let Some(transition) = starved.pop_front() {
-        for node in outputs[transition as usize].iter().map(|node| *node as usize) {
-            if !set.contains(node) {
-                continue;
-            }
-            set.set(node, false);
-            for reader in &readers[node] {
-                fed[*reader as usize] -= 1;
-                if fed[*reader as usize] == 0 {
-                    starved.push_back(*reader);
-                }
-            }
-        }
-    }
-    set
+/// The largest siphon within a set from which nodes go one by one. Only what touches the set is looked at: most sets
+/// are small.
+struct Shrinking<'f> {
+    set: FixedBitSet,
+    /// By transition its inputs in the set.
+    fed: Vec<u32>,
+    outputs: &'f [Vec<u32>],
+    readers: &'f [Vec<u32>],
 }
 
-/// A part of the search: siphons with all of one set and nothing of another.
+impl<'f> Shrinking<'f> {
+    fn new(
+        within: &FixedBitSet,
+        outputs: &'f [Vec<u32>],
+        readers: &'f [Vec<u32>],
+        writers: &[Vec<u32>],
+    ) -> Shrinking<'f> {
+        let mut fed = vec![0; outputs.len()];
+        within.ones().flat_map(|node| &readers[node]).for_each(|reader| fed[*reader as usize] += 1);
+        let mut starved = VecDeque::new();
+        for writer in within.ones().flat_map(|node| &writers[node]) {
+            if fed[*writer as usize] == 0 {
+                // It has no input to lose: once is enough.
+                fed[*writer as usize] = u32::MAX;
+                starved.push_back(*writer);
+            }
+        }
+        let mut shrinking = Shrinking { set: within.clone(), fed, outputs, readers };
+        shrinking.starve(starved);
+        shrinking
+    }
+
+    fn remove(&mut self, node: usize) {
+        let mut starved = VecDeque::new();
+        self.take(node, &mut starved);
+        self.starve(starved);
+    }
+
+    /// Removes the outputs of transitions without an input, until none is left.
+    fn starve(&mut self, mut starved: VecDeque<u32>) {
+        let outputs = self.outputs;
+        while let Some(transition) = starved.pop_front() {
+            outputs[transition as usize].iter().for_each(|node| self.take(*node as usize, &mut starved));
+        }
+    }
+
+    fn take(&mut self, node: usize, starved: &mut VecDeque<u32>) {
+        if !self.set.contains(node) {
+            return;
+        }
+        self.set.set(node, false);
+        for reader in &self.readers[node] {
+            let fed = &mut self.fed[*reader as usize];
+            *fed -= 1;
+            if *fed == 0 {
+                starved.push_back(*reader);
+            }
+        }
+    }
+}
+
+/// A part of the search: siphons with all of one set and nothing outside another, which is the largest siphon there.
 struct Branch {
     with: FixedBitSet,
-    without: FixedBitSet,
+    allowed: FixedBitSet,
 }
 
 /// Each minimal siphon stands in exactly one branch: of the inputs that a transition may have in it, the first that is
@@ -236,12 +270,13 @@ fn search(flow: &Flow, unprotected: bool, limit: usize) -> Option<Vec<Siphon>> {
     let nodes = flow.members.len();
     let mut left = limit;
     let mut found = Vec::new();
+    let mut all = FixedBitSet::with_capacity(nodes);
+    all.insert_range(..);
+    let mut behind = flow.shrinking_siphon(&all);
     for first in 0..nodes {
-        let mut without = FixedBitSet::with_capacity(nodes);
-        without.insert_range(..first);
         let mut with = FixedBitSet::with_capacity(nodes);
         with.insert(first);
-        let mut open = vec![Branch { with, without }];
+        let mut open = vec![Branch { with, allowed: behind.set.clone() }];
         while let Some(branch) = open.pop() {
             left = left.checked_sub(1)?;
             match look(flow, branch, unprotected) {
@@ -249,6 +284,7 @@ fn search(flow: &Flow, unprotected: bool, limit: usize) -> Option<Vec<Siphon>> {
                 Look::Branches(branches) => open.extend(branches),
             }
         }
+        behind.remove(first);
     }
     found.sort();
     Some(found)
@@ -261,28 +297,25 @@ enum Look {
 
 fn look(flow: &Flow, branch: Branch, unprotected: bool) -> Look {
     let none = Look::Branches(Vec::new());
-    let mut allowed = branch.without;
-    allowed.toggle_range(..);
-    let allowed = flow.largest_siphon(&allowed);
-    if !branch.with.is_subset(&allowed) || (unprotected && flow.has_marked_trap(&branch.with)) {
+    let Branch { with, mut allowed } = branch;
+    if !with.is_subset(&allowed) || (unprotected && flow.has_marked_trap(&with)) {
         return none;
     }
-    let inner = flow.largest_siphon(&branch.with);
+    let inner = flow.largest_siphon(&with);
     if !inner.is_clear() {
-        let minimal = inner == branch.with && flow.is_minimal(&inner);
+        let minimal = inner == with && flow.is_minimal(&inner);
         return if minimal { Look::Siphon(inner) } else { none };
     }
-    let Some(choices) = fewest_choices(flow, &branch.with, &allowed) else {
+    let Some(choices) = fewest_choices(flow, &with, &allowed) else {
         return none;
     };
-    let mut without = allowed;
-    without.toggle_range(..);
     let mut branches = Vec::with_capacity(choices.len());
     for node in choices {
-        let mut with = branch.with.clone();
+        let mut with = with.clone();
         with.insert(node);
-        branches.push(Branch { with, without: without.clone() });
-        without.insert(node);
+        let within = if branches.is_empty() { allowed.clone() } else { flow.largest_siphon(&allowed) };
+        branches.push(Branch { with, allowed: within });
+        allowed.set(node, false);
     }
     Look::Branches(branches)
 }
