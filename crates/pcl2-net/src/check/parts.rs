@@ -114,7 +114,8 @@ fn connect(builder: &mut Builder<'_>, id: PartId, inner: &Net, targets: &[Output
             Output::Member(name, _) => *name,
         };
         let Some(inner_word) = inner.words.get(i).filter(|_| i < inner.outputs) else {
-            let message = format!("expected at most {} outputs of the part, found {}", inner.outputs, targets.len());
+            let most = if inner.outputs == 1 { "1 output".to_owned() } else { format!("{} outputs", inner.outputs) };
+            let message = format!("expected at most {most} of the part, found {}", targets.len());
             builder.complain(codes::OUTPUT_COUNT, name.span, message, "leave the others off");
             return;
         };
