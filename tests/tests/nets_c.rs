@@ -136,8 +136,10 @@ fn the_page_shows_code_that_is_written() {
 /// A program may be called like a variable of the functions that are made of it.
 #[test]
 fn programs_may_be_called_like_variables() {
-    for name in ["n", "self", "ready", "scan", "controller", "x"] {
-        compile(&[(&format!("{name}.net"), &followers(name, &["int"]).replace("x0", "x"))]);
+    for name in ["n", "self", "ready", "scan", "controller", "order", "box", "x"] {
+        let inner = followers("inner", &["int"]);
+        let main = "CONTROL\n1 x = msi ( : 1 )\n2 q = inner ( x : )\nEND\n";
+        compile(&[(&format!("{name}.cfg"), main), ("inner.net", &inner)]);
     }
 }
 

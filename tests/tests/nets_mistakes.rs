@@ -107,6 +107,14 @@ fn mistakes_are_told_together_and_nothing_that_follows() {
         let errors = 1 + usize::from(lines.contains("xx") || lines.contains("c.k"));
         assert_eq!(shown.matches("error[").count(), errors, "{lines}\n{shown}");
     }
+    // What a line that cannot be read does not declare is missing all the same.
+    let lines = "STATE b DRIVES y\nGATE x a -> b\nGATE g : a -> b IF zz\nTHEN NEW -> b\nCAPACITY c SIZE 0\n";
+    let (_, shown) = checked(&format!("{head}{lines}END\n"));
+    assert_eq!(shown.matches("error[").count(), 4, "{shown}");
+    // Comments that begin so where no condition stands are comments.
+    let fine = "STATE b DRIVES y != first\nTIME t 3. != seconds\nGATE g : a -> b != note\n";
+    let (status, shown) = checked(&format!("{head}{fine}END\n"));
+    assert_eq!(status, Some(0), "{shown}");
     let unread = "CLASS job\nCAPACITY b OF job SIZE 2 ORDER least due DRIVES y\nGATE g : b -> IF b.due > 1\n";
     let (_, shown) = checked(&format!("{head}{unread}END\n"));
     assert_eq!(shown.matches("error[").count(), 1, "{shown}");

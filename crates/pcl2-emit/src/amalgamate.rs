@@ -1,6 +1,7 @@
 //! A program as one header and one C file.
 
 use crate::Emitted;
+use crate::runtime::is_of_user;
 use crate::unused::without_unused;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,17 +10,25 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn amalgamate(emitted: &Emitted) -> Vec<(String, String)> {
     let files: BTreeMap<&str, &str> = emitted.files.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let name = &emitted.name;
-    let mut weaver = Weaver { files: &files, folders: &emitted.folders, done: BTreeSet::new(), text: String::new() };
+    let mut weaver = Weaver {
+        files: &files,
+        folders: &emitted.folders,
+        done: BTreeSet::new(),
+        text: String::new(),
+        ours: Vec::new(),
+    };
     let header_name = format!("{name}.h");
     weaver.weave(&header_name);
     let header = std::mem::take(&mut weaver.text);
+    weaver.ours.clear();
     weaver.text.push_str(&format!("#include \"{header_name}\"\n\n"));
+    weaver.ours.extend([true, true]);
     let main = format!("{name}.c");
     let (last, first): (Vec<&String>, Vec<&String>) = emitted.sources.iter().partition(|path| **path == main);
     for path in first.into_iter().chain(last) {
         weaver.weave(path);
     }
-    let mut out = vec![(header_name, header), (main, without_unused(&weaver.text))];
+    let mut out = vec![(header_name, header), (main, without_unused(&weaver.text, &weaver.ours))];
     for path in [format!("{name}_example.c"), format!("{name}.json")] {
         if let Some(text) = files.get(path.as_str()) {
             out.push((path, (*text).to_owned()));
@@ -37,6 +46,8 @@ struct Weaver<'a> {
     folders: &'a [String],
     done: BTreeSet<String>,
     text: String,
+    /// By line of the text: no user wrote it.
+    ours: Vec<bool>,
 }
 
 impl Weaver<'_> {
@@ -49,6 +60,7 @@ impl Weaver<'_> {
             match included(line).and_then(|name| self.find(path, name)) {
                 Some(found) => self.weave(&found),
                 None => {
+                    self.ours.push(!is_of_user(path));
                     self.text.push_str(if line == STATIC { EXTERNAL } else { line });
                     self.text.push('\n');
                 }

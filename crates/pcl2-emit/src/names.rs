@@ -46,12 +46,13 @@ const LIBRARY: &str = "\
     wait wcslen write y0 y1 yn \
 ";
 
-/// Variables and parameters of the functions that the compiler writes: a program of that name would be hidden by them.
+/// Variables and parameters of the functions that the compiler writes, which would hide a program of that name, and the
+/// member of every net.
 const VARIABLES: &str = "\
-    T after bad block boxes changed cold complete controller done end faults filled fired first full gate gates go \
-    hand happened held holds hot i instance iwork key last least left marked mode moved n net nets now output \
-    outputs parameters place ready room scan self set sets statement status stopped substep tokens twork value \
-    waiting wanted work writes \
+    after bad block box boxes changed cold command complete controller done edge end faults filled fire fired \
+    first forced full gate gates go hand happened held holds hot i instance iwork key last later least left marked \
+    mode moved n net nets next now number obeyed order output outputs parameters place put ready room scan self \
+    set sets statement status stopped substep T take term tokens twork value waiting wanted work writes \
 ";
 
 /// The C name of a program, given its configured name or its source file's stem.

@@ -41,6 +41,11 @@ impl Runtime {
     }
 }
 
+/// Whether a file among those of the runtime is of a user's own kernels.
+pub(crate) fn is_of_user(path: &str) -> bool {
+    path.split('/').any(|folder| folder == USER)
+}
+
 /// What belongs to a board port: linked by its user together with the table of points, never by itself.
 pub(crate) fn is_port(path: &str) -> bool {
     path.starts_with("pcl2/ports/")

@@ -4,32 +4,57 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// The text without the `static inline` functions of ours that nothing in it calls, their prototypes and their comments.
-pub(crate) fn without_unused(text: &str) -> String {
+/// `ours` tells of each line that no user wrote it: how a user's code is laid out is not known, and whatever word stands
+/// in it may be a call.
+pub(crate) fn without_unused(text: &str, ours: &[bool]) -> String {
     let lines: Vec<&str> = text.lines().collect();
-    let (prototypes, functions): (Vec<Function>, Vec<Function>) =
-        functions(&lines).into_iter().partition(|function| lines[function.code.end - 1].ends_with(';'));
-    let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
-    words(text).for_each(|word| *uses.entry(word).or_default() += 1);
-    prototypes.iter().for_each(|prototype| forget(&mut uses, &lines[prototype.code.clone()]));
-    let mut unused = FxHashSet::default();
-    // A function calls only those above it.
-    for function in functions.iter().rev() {
-        if uses.get(function.name) == Some(&1) {
-            unused.insert(function.name);
-            forget(&mut uses, &lines[function.code.clone()]);
-        }
+    let is_ours = |line: usize| ours.get(line).copied().unwrap_or(false);
+    let (prototypes, mut functions): (Vec<Function>, Vec<Function>) = functions(&lines)
+        .into_iter()
+        .filter(|function| function.lines.clone().all(is_ours))
+        .partition(|function| lines[function.code.end - 1].ends_with(';'));
+    let pasted = (0..lines.len()).any(|line| !is_ours(line) && lines[line].contains("##"));
+    if pasted {
+        // A name may be put together that stands nowhere.
+        return text.to_owned();
     }
+    let mut uses = uses(&lines, is_ours);
+    prototypes.iter().for_each(|prototype| forget(&mut uses, &lines[prototype.code.clone()]));
     let mut keep = vec![true; lines.len()];
-    for function in prototypes.into_iter().chain(functions).filter(|function| unused.contains(function.name)) {
+    let mut unused = FxHashSet::default();
+    // Without one, those that only it called are unused, too.
+    while let Some(at) = functions.iter().rposition(|function| uses.get(function.name) == Some(&1)) {
+        let function = functions.remove(at);
+        forget(&mut uses, &lines[function.code.clone()]);
+        unused.insert(function.name);
         keep[function.lines].fill(false);
+    }
+    for prototype in prototypes.into_iter().filter(|prototype| unused.contains(prototype.name)) {
+        keep[prototype.lines].fill(false);
     }
     let kept = lines.iter().zip(keep).filter(|(_, keep)| *keep).map(|(line, _)| *line);
     kept.flat_map(|line| [line, "\n"]).collect()
 }
 
+/// How often each word is used: of a user's lines those in comments and strings, too.
+fn uses<'a>(lines: &[&'a str], is_ours: impl Fn(usize) -> bool) -> FxHashMap<&'a str, usize> {
+    let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
+    let mut count = |word| *uses.entry(word).or_default() += 1;
+    let mut in_comment = false;
+    for (at, line) in lines.iter().enumerate() {
+        if is_ours(at) {
+            words(line, &mut in_comment).into_iter().for_each(&mut count);
+        } else {
+            line.split(|letter| !is_word(letter)).for_each(&mut count);
+        }
+    }
+    uses
+}
+
 /// These lines use nothing any more.
 fn forget(uses: &mut FxHashMap<&str, usize>, lines: &[&str]) {
-    for word in words(&lines.join("\n")) {
+    let mut in_comment = false;
+    for word in lines.iter().flat_map(|line| words(line, &mut in_comment)) {
         if let Some(uses) = uses.get_mut(word) {
             *uses -= 1;
         }
@@ -51,7 +76,7 @@ fn functions<'a>(lines: &[&'a str]) -> Vec<Function<'a>> {
 }
 
 fn function<'a>(lines: &[&'a str], start: usize) -> Option<Function<'a>> {
-    let name = words(lines[start].split('(').next()?).last().filter(|name| name.starts_with("pcl2_"))?;
+    let name = words(lines[start].split('(').next()?, &mut false).pop().filter(|name| name.starts_with("pcl2_"))?;
     let head = start + lines[start..].iter().position(|line| line.ends_with([';', '{', '}']))?;
     let opens = lines[head].ends_with('{');
     let end = 1 + if opens { head + lines[head..].iter().position(|line| *line == "}")? } else { head };
@@ -67,25 +92,28 @@ fn comment(lines: &[&str], line: usize) -> usize {
     (0..line).rev().find(|above| lines[*above].starts_with("/*")).unwrap_or(line)
 }
 
-/// The identifiers of C code, without those in comments and strings.
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    let mut rest = text;
-    std::iter::from_fn(move || {
-        loop {
-            let letter = rest.chars().next()?;
-            let length = match letter {
-                '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
-                '"' | '\'' => quoted(rest, letter),
-                _ if is_word(letter) => rest.find(|letter| !is_word(letter)).unwrap_or(rest.len()),
-                _ => letter.len_utf8(),
-            };
-            let (word, behind) = rest.split_at(length);
-            rest = behind;
-            if is_word(letter) {
-                return Some(word);
-            }
+/// The identifiers in a line of C, without those in comments and strings; a comment may go on from line to line.
+fn words<'a>(line: &'a str, in_comment: &mut bool) -> Vec<&'a str> {
+    let mut words = Vec::new();
+    let mut rest = line;
+    while let Some(letter) = rest.chars().next() {
+        let length = match letter {
+            _ if *in_comment => rest.find("*/").map_or(rest.len(), |end| end + 2),
+            '/' if rest.starts_with("/*") => 2,
+            '"' | '\'' => quoted(rest, letter),
+            _ if is_word(letter) => rest.find(|letter| !is_word(letter)).unwrap_or(rest.len()),
+            _ => letter.len_utf8(),
+        };
+        let (word, behind) = rest.split_at(length);
+        match *in_comment {
+            true => *in_comment = !word.ends_with("*/"),
+            false if word == "/*" => *in_comment = true,
+            false if is_word(letter) => words.push(word),
+            false => {}
         }
-    })
+        rest = behind;
+    }
+    words
 }
 
 fn is_word(letter: char) -> bool {
@@ -152,6 +180,13 @@ int main(void)
 ";
         let (head, tail) = text.split_at(text.find("/* Called. */").unwrap_or_default());
         assert!(head.contains("twice"));
-        assert_eq!(without_unused(text), tail);
+        assert_eq!(without_unused(text, &vec![true; text.lines().count()]), tail);
+        assert_eq!(without_unused(text, &[]), text, "a user's");
+        let user = format!("{text}// It isn't /* pcl2_four */\n");
+        let mut ours = vec![true; text.lines().count()];
+        ours.push(false);
+        assert_eq!(without_unused(&user, &ours), user);
+        let pasted = format!("{text}#define CALL(name) pcl2_##name()\n");
+        assert_eq!(without_unused(&pasted, &ours), pasted);
     }
 }

@@ -47,8 +47,8 @@ pub enum NetLine {
     Next(Span),
     /// `END`
     End(Span),
-    /// A line that was not understood, which was reported.
-    Broken,
+    /// A line that was not understood, which was reported; true: it may declare a name.
+    Broken(bool),
 }
 
 /// The name of a box, an index included: `idle[3]`; of a box in a part `F.S1`.

@@ -22,6 +22,8 @@ pub struct NetFile {
     pub lines: Vec<NetLine>,
     /// Nothing was said about it so far.
     pub sound: bool,
+    /// All names that it declares are known, whatever was said about other lines.
+    pub whole: bool,
 }
 
 /// The names in a head, in order.
@@ -93,6 +95,7 @@ pub fn read(
         None => None,
     };
     lines.set_words(Words::Net);
+    let head_is_sound = mistakes(&mut context) == before;
     let parsed = parse_net_lines(&mut context, &mut lines);
     let mut decl = decl?;
     if decl.name != stem {
@@ -101,7 +104,8 @@ pub fn read(
         decl.name = stem.to_owned();
     }
     let sound = mistakes(&mut context) == before;
-    Some(NetFile { decl, head: names, lines: parsed, sound })
+    let whole = head_is_sound && !parsed.contains(&NetLine::Broken(true));
+    Some(NetFile { decl, head: names, lines: parsed, sound, whole })
 }
 
 /// A name alone is a constant of a block, which nets do not have: its type was forgotten.

@@ -130,7 +130,7 @@ impl<'a> Lines<'a> {
             return None;
         }
         let statements = self.words.are_statements();
-        let mut holds_expression = self.words == Words::Net || (statements && !open.is_empty());
+        let mut holds_expression = self.ends_in_condition() || (statements && !open.is_empty());
         if let (Some(equals), false, true) = (equals.and_then(|i| self.tokens.get_mut(i)), colon, statements) {
             equals.token = Token::Becomes;
             holds_expression = true;
@@ -142,6 +142,17 @@ impl<'a> Lines<'a> {
             self.report_unclosed(*first, diagnostics);
         }
         Some(bad.unknown || open_text || !open.is_empty())
+    }
+
+    /// Whether what stands last in a line of a net is a condition or a statement.
+    fn ends_in_condition(&self) -> bool {
+        let signs = [Key::And, Key::Or, Key::Not];
+        let words = self.tokens.iter().rev().filter_map(|lexeme| match lexeme.token {
+            Token::Key(key) if !signs.contains(&key) => Some(key),
+            _ => None,
+        });
+        let begins = [Key::If, Key::Until, Key::When, Key::Permit, Key::Abort, Key::Do, Key::After];
+        self.words == Words::Net && words.take(1).any(|word| begins.contains(&word))
     }
 
     /// `a != b` is `a` and a comment; whoever writes it behind an operand means another thing.

@@ -1,6 +1,6 @@
 //! The lines of a net below its head. The lines between FOR and NEXT are parsed once for each value of the counter.
 
-use super::wording::{LINES, inside_help};
+use super::wording::{LINES, declares, inside_help};
 use super::{Context, Lines, cfg};
 use crate::ast::net::NetLine;
 use crate::ast::{Name, Operand, Statement};
@@ -52,14 +52,14 @@ fn block(context: &mut Context<'_>, rows: &[Vec<Lexeme>], parsed: &mut Vec<NetLi
             NetLine::For(name, from, to) => {
                 let Some(length) = body_length(&rows[next..]) else {
                     context.no_next(name.span);
-                    parsed.push(NetLine::Broken);
+                    parsed.push(NetLine::Broken(true));
                     return;
                 };
                 repeat(context, &rows[next..next + length], (name, from, to), parsed);
                 next += length + 1;
             }
-            NetLine::Broken if is_first(row, Key::For) => {
-                parsed.push(NetLine::Broken);
+            NetLine::Broken(_) if is_first(row, Key::For) => {
+                parsed.push(NetLine::Broken(true));
                 next = body_length(&rows[next..]).map_or(rows.len(), |length| next + length + 1);
             }
             NetLine::Next(span) => {
@@ -138,11 +138,11 @@ fn repeat(
 
 fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> NetLine {
     let Some(first) = row.first() else {
-        return NetLine::Broken;
+        return NetLine::Broken(true);
     };
     if !matches!(first.token, Token::Key(key) if key.begins_line()) {
         context.no_net_line(*first);
-        return NetLine::Broken;
+        return NetLine::Broken(may_declare(first.token));
     }
     let tokens = row.iter().map(|lexeme| Ok((lexeme.start, lexeme.token, lexeme.end)));
     match cfg::NetLineParser::new().parse(context, tokens) {
@@ -152,8 +152,17 @@ fn parse(context: &mut Context<'_>, row: &[Lexeme]) -> NetLine {
                 Some(second) => context.one_statement(second),
                 None => context.report(error, row),
             }
-            NetLine::Broken
+            NetLine::Broken(may_declare(first.token))
         }
+    }
+}
+
+/// Whether a line that begins so declares something that other lines name. Gates are named by none.
+fn may_declare(first: Token) -> bool {
+    match first {
+        Token::Key(Key::Gate) => false,
+        Token::Key(key) => declares(key) || key == Key::Local,
+        _ => true,
     }
 }
 

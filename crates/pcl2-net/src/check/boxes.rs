@@ -18,9 +18,10 @@ pub(super) fn boxes(builder: &mut Builder<'_>, outline: &mut Outline) {
             Placed::Box(index) => {
                 let lines = &mut outline.boxes[index];
                 let (enter, after) = (std::mem::take(&mut lines.enter), std::mem::take(&mut lines.after));
-                let line = lines.line.clone();
+                let (line, broken) = (lines.line.clone(), lines.broken);
                 Filler { builder: &mut *builder, id: BoxId(id), line: &line }.fill(BoxLines {
                     line: line.clone(),
+                    broken,
                     enter,
                     after,
                 });
@@ -221,7 +222,7 @@ impl Filler<'_, '_> {
                 let fits = size > 0 && size as usize <= MAX_COUNT;
                 if !fits {
                     let message = format!("expected a size from 1 to {MAX_COUNT}, found {size}");
-                    self.builder.miss(codes::OUT_OF_RANGE, span, message, "say how many tokens the box can hold");
+                    self.builder.out_of_range(size, span, message, "say how many tokens the box can hold");
                 }
                 Some(size).filter(|_| fits)
             }
@@ -298,7 +299,7 @@ impl Filler<'_, '_> {
     }
 
     fn kind(&mut self, lines: BoxLines) {
-        let BoxLines { line, enter, after } = lines;
+        let BoxLines { line, broken, enter, after } = lines;
         let has_statements =
             matches!(line.kind, BoxKind::Operation | BoxKind::Signal | BoxKind::Process | BoxKind::Generation);
         if let (false, Some(statement)) = (has_statements, enter.first()) {
@@ -326,16 +327,16 @@ impl Filler<'_, '_> {
                 Some(time) => Kind::Time(self.time(*time)),
                 None => Kind::State,
             },
-            BoxKind::Operation | BoxKind::Signal => self.action(&line, enter),
+            BoxKind::Operation | BoxKind::Signal => self.action(&line, enter, broken),
             BoxKind::Process => self.process(&line, enter, after),
             BoxKind::Generation => self.generation(&line, enter),
         };
         self.place().kind = kind;
     }
 
-    fn action(&mut self, line: &BoxLine, enter: Vec<Statement>) -> Kind {
-        if enter.is_empty() {
-            self.builder.miss(
+    fn action(&mut self, line: &BoxLine, enter: Vec<Statement>, broken: bool) -> Kind {
+        if enter.is_empty() && !broken {
+            self.builder.complain(
                 codes::NET_LINE,
                 line.name.span(),
                 "expected DO in or below the line, found none",

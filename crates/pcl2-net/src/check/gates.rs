@@ -64,7 +64,7 @@ struct Reader<'b, 'a> {
 
 impl Reader<'_, '_> {
     fn gate(&mut self, lines: GateLines) -> Option<Gate> {
-        let GateLines { line, rules } = lines;
+        let GateLines { line, broken, rules } = lines;
         let told = super::mistakes(self.builder.diagnostics);
         let (before, after) = (self.arcs(&line.before), self.arcs(&line.after));
         let name = self.builder.text(line.name.name);
@@ -94,10 +94,10 @@ impl Reader<'_, '_> {
             rules
         };
         for rule in rules {
-            let rule = self.rule(&gate, rule, &line.after);
+            let rule = self.rule(&gate, rule, (&line.after, broken));
             gate.rules.push(rule);
         }
-        if super::mistakes(self.builder.diagnostics) == told {
+        if super::mistakes(self.builder.diagnostics) == told && !broken {
             self.unfilled(&gate);
         }
         Some(gate)
@@ -111,7 +111,7 @@ impl Reader<'_, '_> {
                 let name = self.builder.net.place(arc.place).name.clone();
                 let message = format!("expected a THEN with a token for `{name}`, found none");
                 let help = format!("let a token go there, or make one: `THEN NEW -> {name}`");
-                self.builder.miss(codes::ROUTE, gate.span, message, &help);
+                self.builder.complain(codes::ROUTE, gate.span, message, &help);
             }
         }
     }
@@ -165,12 +165,8 @@ impl Reader<'_, '_> {
     fn weight(&mut self, term: &ArcTerm) -> u32 {
         match term.weight {
             Some((0, span)) => {
-                self.builder.miss(
-                    codes::OUT_OF_RANGE,
-                    span,
-                    "expected a weight from 1, found 0",
-                    "leave the box out, or write INHIBIT",
-                );
+                let message = "expected a weight from 1, found 0";
+                self.builder.out_of_range(0, span, message, "leave the box out, or write INHIBIT");
                 1
             }
             Some((weight, _)) => weight,
@@ -277,11 +273,12 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn rule(&mut self, gate: &Gate, lines: RuleLines, after: &[ArcTerm]) -> Rule {
+    fn rule(&mut self, gate: &Gate, lines: RuleLines, (after, broken): (&[ArcTerm], bool)) -> Rule {
         let RuleLines { condition, routes, actions, span } = lines;
         let (looks, clears) =
             condition.as_ref().map_or((Vec::new(), Vec::new()), |condition| self.reads(gate, condition));
-        let moves = if routes.is_empty() { self.plain_moves(gate, after) } else { self.moves(gate, &routes, span) };
+        let moves =
+            if routes.is_empty() { self.plain_moves(gate, after) } else { self.moves(gate, &routes, (span, broken)) };
         actions.iter().for_each(|statement| self.not_there_yet(gate, &moves, statement));
         let condition = condition.map(|condition| self.builder.statement(condition));
         let actions = actions.into_iter().map(|statement| self.builder.action(statement)).collect();
@@ -387,7 +384,7 @@ impl Reader<'_, '_> {
         format!("make a new one: {vanish}`THEN NEW -> {name}`")
     }
 
-    fn moves(&mut self, gate: &Gate, routes: &[Route], span: Span) -> Vec<Move> {
+    fn moves(&mut self, gate: &Gate, routes: &[Route], (span, broken): (Span, bool)) -> Vec<Move> {
         let mut moves = Vec::new();
         let mut filled = vec![false; gate.after.len()];
         let mut used = vec![false; gate.before.len()];
@@ -427,7 +424,9 @@ impl Reader<'_, '_> {
             }
             moves.push(Move { from, to });
         }
-        self.missing(gate, &used, span);
+        if !broken {
+            self.missing(gate, &used, span);
+        }
         moves
     }
 
@@ -455,7 +454,7 @@ impl Reader<'_, '_> {
             if !used {
                 let name = self.builder.net.place(arc.place).name.clone();
                 let message = format!("expected a THEN for each box before the gate, found none for `{name}`");
-                self.builder.miss(
+                self.builder.complain(
                     codes::ROUTE,
                     span,
                     message,

@@ -28,7 +28,7 @@ use pcl2_lang::catalogue::Catalogue;
 use pcl2_lang::codes::{self, Code};
 use pcl2_lang::decl::{BadRule, Decl, Fault};
 use pcl2_lang::declare::net::NetFile;
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::net::{BOX_OUTPUT, BoxId, Level, MAX_COUNT, MAX_WRITES, Net, PartId, StatementId, Touched, WordId};
 use pcl2_lang::source::{Sources, Span};
 use pcl2_lang::suggest;
@@ -63,8 +63,8 @@ pub fn compile(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Decl> {
     let before = mistakes(diagnostics);
-    let NetFile { decl, head, lines, sound } = file;
-    let mut builder = Builder::new((decl, sound), sources, symbols, catalogue, diagnostics);
+    let NetFile { decl, head, lines, sound, whole } = file;
+    let mut builder = Builder::new((decl, sound, whole), sources, symbols, catalogue, diagnostics);
     let mut outline = outline::outline(&mut builder, lines);
     names::collect(&mut builder, &head, &outline);
     boxes::boxes(&mut builder, &mut outline);
@@ -87,6 +87,8 @@ pub(crate) struct Builder<'a> {
     pub(crate) net: Net,
     /// All lines were understood.
     sound: bool,
+    /// All lines that declare names were understood.
+    whole: bool,
     /// Mistakes that were told before this net.
     before: usize,
     /// Boxes whose class is not known, which was reported.
@@ -118,7 +120,7 @@ pub(crate) enum Thing {
 
 impl<'a> Builder<'a> {
     fn new(
-        (mut decl, sound): (Decl, bool),
+        (mut decl, sound, whole): (Decl, bool, bool),
         sources: &'a Sources,
         symbols: &'a mut Symbols,
         catalogue: &'a Catalogue,
@@ -130,6 +132,7 @@ impl<'a> Builder<'a> {
             decl,
             net: Net::default(),
             sound,
+            whole,
             before: mistakes(diagnostics),
             unclassed: FxHashSet::default(),
             sources,
@@ -157,10 +160,18 @@ impl<'a> Builder<'a> {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
     }
 
-    /// As [`Builder::complain`], of what no line says: one that was not understood may say it.
+    /// As [`Builder::complain`], of what no line declares: one that was not understood may do so.
     pub(crate) fn miss(&mut self, code: Code, span: Span, message: impl Into<String>, help: &str) {
-        if self.sound {
+        if self.whole {
             self.complain(code, span, message, help);
+        }
+    }
+
+    /// A number that does not fit. One too large to be read is 0, which was reported.
+    pub(crate) fn out_of_range(&mut self, number: u32, span: Span, message: impl Into<String>, help: &str) {
+        let written = self.written_text(span);
+        if number != 0 || written.chars().all(|digit| digit == '0') {
+            self.complain(codes::OUT_OF_RANGE, span, message, help);
         }
     }
 
@@ -298,12 +309,20 @@ impl<'a> Builder<'a> {
     fn unknown(&mut self, name: Name, expected: &str) {
         let text = self.text(name);
         let message = format!("expected {expected}, found `{text}`");
-        let mut known: Vec<&str> = self.names.keys().map(|symbol| self.symbols.text(*symbol)).collect();
-        known.sort_unstable();
-        let help =
-            suggest::help(&text, known.into_iter()).unwrap_or_else(|| format!("nothing in the net is called `{text}`"));
+        // Of more mistakes nobody is shown.
+        let few = self.diagnostics.len() < diagnostic::MAX_ERRORS;
+        let help = few.then(|| suggest::help(&text, self.known().into_iter())).flatten();
+        let help = help.unwrap_or_else(|| format!("nothing in the net is called `{text}`"));
         self.miss(codes::NET_NAME, name.span, message, &help);
         self.names.insert(name.symbol, (Thing::Spoiled, name.span));
+    }
+
+    /// The names of the net, in order.
+    fn known(&self) -> Vec<&str> {
+        let sound = self.names.iter().filter(|(_, (thing, _))| *thing != Thing::Spoiled);
+        let mut known: Vec<&str> = sound.map(|(symbol, _)| self.symbols.text(*symbol)).collect();
+        known.sort_unstable();
+        known
     }
 
     /// The box of the net itself that a name stands for.

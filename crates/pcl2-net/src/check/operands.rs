@@ -6,6 +6,7 @@ use pcl2_lang::codes;
 use pcl2_lang::net::{BoxId, CAUSE, Kind, READY};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
+use pcl2_lang::symbol::Symbol;
 
 /// Looks at the operands of all statements.
 pub(super) fn operands(builder: &mut Builder<'_>) {
@@ -43,7 +44,7 @@ fn operand(builder: &mut Builder<'_>, operand: &Operand, statement: &Statement) 
         Operand::Element(element) => {
             let (name, indexes) = (element.0, element.1.as_slice());
             let known = builder.names.contains_key(&name.symbol) || indexes.len() != 1;
-            if !known && !is_indexed(builder, name, indexes) {
+            if !known && indexed(builder, name, indexes).is_none() {
                 builder.unknown(name, EXPECTED);
             }
         }
@@ -66,11 +67,11 @@ fn named(builder: &mut Builder<'_>, name: Name, statement: &Statement) {
     builder.unknown(name, EXPECTED);
 }
 
-/// `idle[3]` is known as a box or a word.
-fn is_indexed(builder: &Builder<'_>, name: Name, indexes: &[(i32, Span)]) -> bool {
+/// `idle[3]` as the name of a box or a word, if there is one.
+fn indexed(builder: &Builder<'_>, name: Name, indexes: &[(i32, Span)]) -> Option<Symbol> {
     let text = builder.text(name);
     let whole = indexes.first().and_then(|(index, _)| builder.symbols.find(&format!("{text}[{index}]")));
-    whole.is_some_and(|symbol| builder.names.contains_key(&symbol))
+    whole.filter(|symbol| builder.names.contains_key(symbol))
 }
 
 /// An attribute of a box; what a part has is found out when its body is compiled.
@@ -125,12 +126,21 @@ fn written(builder: &mut Builder<'_>, owner: Name, member: Name) {
 
 /// A number of tokens is no time.
 fn no_box_as_time(builder: &mut Builder<'_>, statement: usize) {
-    let Some(Operand::Name(name)) = builder.statements[statement].inputs().first().map(|item| item.value.clone())
-    else {
+    let Some(item) = builder.statements[statement].inputs().first().cloned() else {
         return;
     };
-    if let Some((Thing::Box(_), _)) = builder.names.get(&name.symbol) {
-        let message = format!("expected a time in seconds, found the box `{}`", builder.text(name));
-        builder.complain(codes::NET_NAME, name.span, message, "take a number, a parameter, an input or an output");
+    let thing = |name: Name| builder.names.get(&name.symbol).map(|(thing, _)| *thing);
+    let is_box = match &item.value {
+        Operand::Name(name) => matches!(thing(*name), Some(Thing::Box(_))),
+        Operand::Element(element) => {
+            let whole = indexed(builder, element.0, &element.1);
+            whole.is_some_and(|symbol| matches!(builder.names.get(&symbol), Some((Thing::Box(_), _))))
+        }
+        Operand::Member(member) => matches!(thing(member.0), Some(Thing::Part(_))),
+        Operand::Empty | Operand::Number(_) | Operand::Text(_) => false,
+    };
+    if is_box {
+        let message = format!("expected a time in seconds, found the box `{}`", builder.written_text(item.span));
+        builder.complain(codes::NET_NAME, item.span, message, "take a number, a parameter, an input or an output");
     }
 }

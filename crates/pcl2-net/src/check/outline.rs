@@ -36,6 +36,8 @@ pub(super) enum Placed {
 /// A box with its statements.
 pub(super) struct BoxLines {
     pub(super) line: BoxLine,
+    /// A line below it was not understood.
+    pub(super) broken: bool,
     pub(super) enter: Vec<Statement>,
     pub(super) after: Vec<Statement>,
 }
@@ -58,6 +60,8 @@ pub(super) struct AbortLines {
 /// A gate with its rules.
 pub(super) struct GateLines {
     pub(super) line: GateLine,
+    /// A line below it was not understood.
+    pub(super) broken: bool,
     pub(super) rules: Vec<RuleLines>,
 }
 
@@ -103,7 +107,7 @@ impl Outline {
             NetLine::Active(active) => self.actives.push(active),
             NetLine::Blocked(name) => self.blocked.push(name),
             NetLine::For(..) | NetLine::Next(_) | NetLine::End(_) => {}
-            NetLine::Broken => return Current::Broken,
+            NetLine::Broken(_) => return self.broken(current),
             NetLine::Box(line) => return self.place(*line),
             NetLine::Part(is_macro, name, call) => {
                 self.order.push(Placed::Part(self.parts.len()));
@@ -119,6 +123,16 @@ impl Outline {
             }
         }
         Current::None
+    }
+
+    /// What the line says of the box or gate above is not known, nor what the lines below it belong to.
+    fn broken(&mut self, current: Current) -> Current {
+        match current {
+            Current::Box => self.boxes.last_mut().into_iter().for_each(|lines| lines.broken = true),
+            Current::Gate => self.gates.last_mut().into_iter().for_each(|lines| lines.broken = true),
+            Current::None | Current::Broken | Current::Abort | Current::Part => {}
+        }
+        Current::Broken
     }
 
     /// A line that belongs to the one above it.
@@ -146,7 +160,7 @@ impl Outline {
             false
         });
         self.order.push(Placed::Box(self.boxes.len()));
-        self.boxes.push(BoxLines { line, enter, after: Vec::new() });
+        self.boxes.push(BoxLines { line, broken: false, enter, after: Vec::new() });
         Current::Box
     }
 
@@ -161,7 +175,7 @@ impl Outline {
             }
             GateClause::Read(_) | GateClause::Inhibit(_) | GateClause::Priority(..) | GateClause::Permit(_) => true,
         });
-        self.gates.push(GateLines { line, rules });
+        self.gates.push(GateLines { line, broken: false, rules });
         Current::Gate
     }
 

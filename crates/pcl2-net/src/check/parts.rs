@@ -28,6 +28,8 @@ fn part(builder: &mut Builder<'_>, id: PartId, lines: PartLines) {
             macro_box(builder, id, inner, code);
         }
         connect(builder, id, inner, &targets, &mut part);
+    } else {
+        builder.unclassed.extend(place);
     }
     if let Some(lines) = abort {
         let clears = commands(builder, &lines.condition);

@@ -43,7 +43,7 @@ fn drive(builder: &mut Builder<'_>, index: usize) {
         (false, None) => builder.net.words[index].drive = Drive::Level(levels),
         (true, Some(_)) => {}
         // What drives it may be wrong otherwise, which was reported.
-        (true, None) if super::mistakes(builder.diagnostics) > builder.before => {}
+        (true, None) if !builder.sound || super::mistakes(builder.diagnostics) > builder.before => {}
         (true, None) if index < builder.net.outputs => {
             let message = format!("expected a box that drives `{name}` or a statement that writes it, found none");
             let help = format!("say `DRIVES {name}` at a box, or `DO {name} = ..`");
