@@ -2,6 +2,7 @@
 
 use super::outline::{BoxLines, Outline, Placed};
 use super::{Builder, Thing};
+use crate::structure::names::counted;
 use pcl2_lang::ast::net::{BoxClause, BoxKind, BoxLine, Preset};
 use pcl2_lang::ast::{Name, Number, Operand, Statement};
 use pcl2_lang::codes;
@@ -53,8 +54,8 @@ fn whole(builder: &mut Builder<'_>, without_parts: bool) {
 }
 
 /// `1 token`, `2 tokens`
-pub(super) fn counted(tokens: u32) -> String {
-    if tokens == 1 { "1 token".to_owned() } else { format!("{tokens} tokens") }
+pub(super) fn tokens(count: u32) -> String {
+    counted(count as usize, "token", "tokens")
 }
 
 /// Which boxes have a clause.
@@ -272,7 +273,7 @@ impl Filler<'_, '_> {
         };
         let tokens = count.map_or(1, |(count, _)| count);
         if let Some(capacity) = place.capacity.filter(|capacity| tokens > *capacity) {
-            let message = format!("expected at most {} in `{}`, found {tokens}", counted(capacity), place.name);
+            let message = format!("expected at most {} in `{}`, found {tokens}", self::tokens(capacity), place.name);
             let span = count.map_or(span, |(_, span)| span);
             self.builder.complain(codes::CAPACITY, span, message, "mark it with fewer, or make it larger");
         }

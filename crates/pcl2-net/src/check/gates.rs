@@ -1,6 +1,6 @@
 //! Pass 5: gates in the order in which a scan tries them, with every token's way.
 
-use super::boxes::counted;
+use super::boxes::tokens;
 use super::outline::{GateLines, Outline, RuleLines};
 use super::{Builder, Thing};
 use pcl2_lang::ast::net::{ArcTerm, BoxName, GateClause, Route};
@@ -203,7 +203,7 @@ impl Reader<'_, '_> {
                 reads.iter().find(|read| read.part.is_none() && read.place == id).map_or(0, |read| read.weight);
             let place = self.builder.net.place(id);
             if let Some(most) = place.capacity.filter(|most| weight > *most) {
-                let message = format!("expected at most {} in `{}`, found {weight}", counted(most), place.name);
+                let message = format!("expected at most {} in `{}`, found {weight}", tokens(most), place.name);
                 let span = term.weight.map_or(term.place.span(), |(_, span)| span);
                 self.builder.complain(codes::CAPACITY, span, message, "the gate could never fire");
             }
@@ -255,7 +255,7 @@ impl Reader<'_, '_> {
             };
             if let Some(most) = most.filter(|most| arc.weight > *most) {
                 let message =
-                    format!("expected at most {} from or to `{}`, found {}", counted(most), place.name, arc.weight);
+                    format!("expected at most {} from or to `{}`, found {}", tokens(most), place.name, arc.weight);
                 let span = term.weight.map_or(term.place.span(), |(_, span)| span);
                 self.builder.complain(codes::CAPACITY, span, message, "the gate could never fire");
             }

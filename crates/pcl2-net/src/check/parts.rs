@@ -3,6 +3,7 @@
 use super::gates::commands;
 use super::outline::{Outline, PartLines};
 use super::{Builder, Thing};
+use crate::structure::names::counted;
 use pcl2_lang::ast::{Name, Output};
 use pcl2_lang::codes;
 use pcl2_lang::net::{Abort, BoxId, Class, Drive, Kind, Level, Net, Part, PartId, WordId};
@@ -116,7 +117,7 @@ fn connect(builder: &mut Builder<'_>, id: PartId, inner: &Net, targets: &[Output
             Output::Member(name, _) => *name,
         };
         let Some(inner_word) = inner.words.get(i).filter(|_| i < inner.outputs) else {
-            let most = if inner.outputs == 1 { "1 output".to_owned() } else { format!("{} outputs", inner.outputs) };
+            let most = counted(inner.outputs, "output", "outputs");
             let message = format!("expected at most {most} of the part, found {}", targets.len());
             builder.complain(codes::OUTPUT_COUNT, name.span, message, "leave the others off");
             return;
