@@ -63,7 +63,9 @@ impl Generated {
                     continue;
                 }
                 used.push(place);
-                let heavy = i > 1 && dice.below(8) == 0;
+                // What is read must have room for so many.
+                let room = i == 3 || self.text.contains(&format!("CAPACITY s{place}\n"));
+                let heavy = i > 1 && dice.below(if i == 3 { 8 } else { 2 }) == 0 && room;
                 let text = if heavy { format!("12*s{place}") } else { format!("s{place}") };
                 self.arcs.push((name.clone(), ["take", "put", "read", "inhibit"][i], text.clone()));
                 list.push(text);
