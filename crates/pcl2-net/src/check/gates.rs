@@ -6,7 +6,7 @@ use super::{Builder, Thing};
 use pcl2_lang::ast::net::{ArcTerm, BoxName, GateClause, Route};
 use pcl2_lang::ast::{Operand, Output, Statement};
 use pcl2_lang::codes;
-use pcl2_lang::diagnostic::Diagnostic;
+use pcl2_lang::diagnostic::{self, Diagnostic};
 use pcl2_lang::net::{Arc, BoxId, Gate, GateId, Kind, MAX_COUNT, Move, PartId, Permit, Rule, Tested, WordId};
 use pcl2_lang::source::Span;
 use pcl2_lang::suggest;
@@ -133,7 +133,7 @@ impl Reader<'_, '_> {
         match clause {
             GateClause::Read(arcs) => {
                 gate.reads = self.tested(&arcs);
-                self.readable(&gate.reads, &arcs);
+                self.readable(&arcs);
             }
             GateClause::Inhibit(arcs) => gate.inhibits = self.tested(&arcs),
             GateClause::Priority(priority, _) => gate.priority = priority,
@@ -194,13 +194,12 @@ impl Reader<'_, '_> {
     }
 
     /// A box of the net itself that must hold more tokens than it can would never let the gate fire.
-    fn readable(&mut self, reads: &[Tested], terms: &[ArcTerm]) {
+    fn readable(&mut self, terms: &[ArcTerm]) {
         for term in terms.iter().filter(|term| term.place.part.is_none()) {
             let Some((Thing::Box(id), _)) = self.builder.names.get(&term.place.name.symbol).copied() else {
                 continue;
             };
-            let weight =
-                reads.iter().find(|read| read.part.is_none() && read.place == id).map_or(0, |read| read.weight);
+            let weight = term.weight.map_or(1, |(weight, _)| weight);
             let place = self.builder.net.place(id);
             if let Some(most) = place.capacity.filter(|most| weight > *most) {
                 let message = format!("expected at most {} in `{}`, found {weight}", tokens(most), place.name);
@@ -285,8 +284,8 @@ impl Reader<'_, '_> {
         Rule { condition, looks, clears, moves, actions, span }
     }
 
-    /// A box that takes one token is empty when a gate puts its token there: what a statement
-    /// of the gate writes to it is lost.
+    /// A box that takes one token is empty when a gate puts its token there: what a statement of the gate writes to it is
+    /// lost.
     fn not_there_yet(&mut self, gate: &Gate, moves: &[Move], statement: &Statement) {
         for output in &statement.outputs {
             let Output::Member(owner, member) = output else {
@@ -304,7 +303,8 @@ impl Reader<'_, '_> {
                 let message =
                     format!("expected a box that has a token, found `{}`, which gets it by this gate", place.name);
                 let help = format!("the token is still that of `{source}`: `{source}.{}`", self.builder.text(*member));
-                self.builder.complain(codes::LOST_WRITE, owner.span, message, &help);
+                let warning = Diagnostic::new(codes::LOST_WRITE, owner.span, message).help(help);
+                diagnostic::warn(self.builder.diagnostics, warning);
             }
         }
     }
